@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "smopt/geometry/vec3.h"
+
+namespace smopt {
+
+/// An axis-aligned box in single precision whose bounds are rounded outwards, so that it contains what it was made from.
+struct Box {
+  float low[3] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+  float high[3] = {-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+                   -std::numeric_limits<float>::infinity()};
+
+  [[nodiscard]] bool overlaps(const Box& other) const {
+    // Bitwise and: six comparisons without a branch.
+    return static_cast<bool>((low[0] <= other.high[0]) & (low[1] <= other.high[1]) & (low[2] <= other.high[2]) & (other.low[0] <= high[0]) &
+                             (other.low[1] <= high[1]) & (other.low[2] <= high[2]));
+  }
+};
+
+/// The next float below (above) a double: converting rounds to nearest, so one relative step of 2⁻²³ outwards is enough.
+inline float rounded_down(double x) {
+  const auto f = static_cast<float>(x);
+  return f - std::abs(f) * 1.2e-7F - std::numeric_limits<float>::min();
+}
+inline float rounded_up(double x) {
+  const auto f = static_cast<float>(x);
+  return f + std::abs(f) * 1.2e-7F + std::numeric_limits<float>::min();
+}
+
+/// The outward-rounded box of the double-precision bounds.
+inline Box make_box(const Vec3& low, const Vec3& high) {
+  Box box;
+  for (int i = 0; i < 3; ++i) {
+    box.low[i] = rounded_down(low[i]);
+    box.high[i] = rounded_up(high[i]);
+  }
+  return box;
+}
+
+inline Box triangle_box(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return make_box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+}
+
+}  // namespace smopt

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "smopt/geometry/vec3.h"
+
+/// Formulas for one triangle: the only place where the improvement's side of the project has them.
+namespace smopt {
+
+/// Twice the area vector, (b − a) × (c − a); along the outward normal for an anticlockwise triangle.
+inline Vec3 doubled_area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b - a).cross(c - a);
+}
+
+/// Six times the signed volume of the tetrahedron that the triangle forms with the origin.
+inline double sextuple_volume(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return a.dot(b.cross(c));
+}
+
+/// Distance of p to the segment ab where its projection falls strictly inside the segment; infinity where it does not.
+inline double distance_to_open_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a;
+  const double t = (p - a).dot(ab);
+  const double length2 = ab.squaredNorm();
+  if (!(t > 0 && t < length2)) return HUGE_VAL;
+  return (p - a - (t / length2) * ab).norm();
+}
+
+/// Which triangles count as low quality (Liu et al. 2017, section 0.3: "low edge ratio or containing tiny angles").
+struct QualityThresholds {
+  double edge_ratio = 0.1;      ///< shortest/longest edge below this; [0, 1)
+  double min_angle_deg = 10.0;  ///< an angle below this; [0, 60)
+};
+
+/// Tests triangles against thresholds without a square root or an arc cosine.
+class QualityTest {
+ public:
+  explicit QualityTest(const QualityThresholds& thresholds)
+      : edge_ratio2_(thresholds.edge_ratio * thresholds.edge_ratio), cos2_(square_of_cos(thresholds.min_angle_deg)) {}
+
+  [[nodiscard]] bool is_low(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
+    const double shortest = std::min({ab, bc, ca});
+    const double longest = std::max({ab, bc, ca});
+    if (shortest <= edge_ratio2_ * longest && edge_ratio2_ > 0) return true;
+    // The smallest angle faces the shortest edge: cos = (p² + q² − s²) / (2pq), and p² + q² > s².
+    const double middle = ab + bc + ca - shortest - longest;
+    const double twice_dot = middle + longest - shortest;
+    return cos2_ < 1 && twice_dot * twice_dot > 4 * cos2_ * middle * longest;
+  }
+
+ private:
+  static double square_of_cos(double degrees) { return degrees <= 0 ? 1.0 : std::pow(std::cos(degrees * std::numbers::pi / 180), 2); }
+
+  double edge_ratio2_;
+  double cos2_;
+};
+
+}  // namespace smopt

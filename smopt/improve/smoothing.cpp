@@ -1,0 +1,126 @@
+#include "smopt/improve/smoothing.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "smopt/error.h"
+#include "smopt/improve/move_guard.h"
+#include "smopt/improve/screening.h"
+#include "smopt/mesh/rings.h"
+
+namespace smopt {
+namespace {
+
+/// A step shorter than this part of the longest spoke is none: its effect on any angle is below 1e-7 rad, and without a bound the fixed
+/// point would be approached for ever.
+constexpr double kNegligibleStepRel = 1e-7;
+/// Vertices between two progress reports.
+constexpr std::size_t kProgressStride = 16384;
+
+class Smoother {
+ public:
+  Smoother(TriangleMesh& mesh, const VertexRings& rings, const SmoothingOptions& options, const ProgressCallback& progress)
+      : mesh_(mesh), rings_(rings), options_(options), progress_(progress), guard_(mesh, rings), is_stuck_(mesh.vertex_count(), 0) {}
+
+  SmoothingReport run() {
+    Screening screening(mesh_, rings_, options_.thresholds);
+    sweep(vertices_with_star());
+    ActiveSet active = screening.of_all();
+    while (!is_finished(active)) {
+      for (int i = 0; i < options_.rounds_per_screening && has_rounds_left(); ++i) sweep(active.vertices);
+      active = screening.of_stars(active.vertices);
+    }
+    report_.low_quality = active.low_quality;
+    report_.stuck = static_cast<std::size_t>(std::count(is_stuck_.begin(), is_stuck_.end(), 1));
+    return std::move(report_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<VertexId> vertices_with_star() const {
+    std::vector<VertexId> vertices;
+    vertices.reserve(mesh_.vertex_count());
+    for (VertexId v = 0; v < mesh_.vertex_count(); ++v)
+      if (rings_.valence(v) > 0) vertices.push_back(v);
+    return vertices;
+  }
+
+  [[nodiscard]] bool has_rounds_left() const { return static_cast<int>(report_.rounds.size()) < options_.rounds; }
+
+  bool is_finished(const ActiveSet& active) {
+    if (active.low_quality == 0)
+      report_.stopped_because = "quality reached";
+    else if (report_.rounds.back().moves.accepted == 0)
+      report_.stopped_because = "nothing moved";
+    else if (!has_rounds_left())
+      report_.stopped_because = "rounds";
+    return !report_.stopped_because.empty();
+  }
+
+  void sweep(const std::vector<VertexId>& vertices) {
+    RoundReport round;
+    round.active = vertices.size();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (i % kProgressStride == 0)
+        report_progress(progress_, "smoothing", done(static_cast<double>(i) / static_cast<double>(vertices.size())));
+      if (is_stuck_[vertices[i]] == 0) move(vertices[i], round);
+    }
+    report_.moves.accepted += round.moves.accepted;
+    report_.moves.shortened += round.moves.shortened;
+    report_.moves.refused += round.moves.refused;
+    report_.rounds.push_back(round);
+  }
+
+  /// The first sweep takes about half of the time, whatever follows.
+  [[nodiscard]] double done(double fraction_of_round) const {
+    const double rounds_done = static_cast<double>(report_.rounds.size());
+    return rounds_done == 0 ? 0.5 * fraction_of_round : 0.5 + 0.5 * (rounds_done + fraction_of_round) / options_.rounds;
+  }
+
+  void move(VertexId v, RoundReport& round) {
+    const Vec3 from = mesh_.points[v];
+    const Vec3 step = proposed_step(options_.step, from, rings_.vertices(v), mesh_.points);
+    if (is_negligible(v, step)) return;
+    guard_.select(v, from + step);
+    double beta = 1;
+    for (int halving = 0; halving <= options_.halvings; ++halving, beta *= 0.5) {
+      if (!guard_.is_move_ok(from + beta * step)) continue;
+      guard_.apply();
+      for (const VertexId w : rings_.vertices(v)) is_stuck_[w] = 0;
+      ++round.moves.accepted;
+      round.moves.shortened += halving > 0 ? 1 : 0;
+      round.longest_move = std::max(round.longest_move, beta * step.norm());
+      return;
+    }
+    is_stuck_[v] = 1;
+    ++round.moves.refused;
+  }
+
+  [[nodiscard]] bool is_negligible(VertexId v, const Vec3& step) const {
+    double longest2 = 0;
+    for (const VertexId w : rings_.vertices(v)) longest2 = std::max(longest2, (mesh_.points[w] - mesh_.points[v]).squaredNorm());
+    return step.squaredNorm() <= kNegligibleStepRel * kNegligibleStepRel * longest2;
+  }
+
+  TriangleMesh& mesh_;
+  const VertexRings& rings_;
+  const SmoothingOptions& options_;
+  const ProgressCallback& progress_;
+  MoveGuard guard_;
+  std::vector<char> is_stuck_;  // per vertex: refused, and nothing around it has moved since
+  SmoothingReport report_;
+};
+
+}  // namespace
+
+SmoothingReport smooth(TriangleMesh& mesh, const SmoothingOptions& options, const ProgressCallback& progress) {
+  if (options.rounds <= 0) {
+    SmoothingReport report;
+    report.stopped_because = "rounds";
+    return report;
+  }
+  const std::optional<VertexRings> rings = build_rings(mesh);
+  if (!rings) throw InvalidMesh("smoothing needs a closed, oriented manifold");
+  return Smoother(mesh, *rings, options, progress).run();
+}
+
+}  // namespace smopt

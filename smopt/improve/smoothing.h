@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "smopt/geometry/triangle_shape.h"
+#include "smopt/improve/step_rule.h"
+#include "smopt/mesh/triangle_mesh.h"
+#include "smopt/progress.h"
+
+namespace smopt {
+
+/// How the surface is smoothed; the defaults are the paper's where it gives one.
+struct SmoothingOptions {
+  int rounds = 100;                    ///< sweeps in all, the first over every vertex; ≥ 0; the paper's default
+  int rounds_per_screening = 4;        ///< sweeps over the active vertices before they are chosen anew; ≥ 1; the paper: "three or four"
+  QualityThresholds thresholds;        ///< which triangles are smoothed again; the paper gives no number, these reproduce its figures
+  int halvings = 10;                   ///< how often a refused step is halved before the vertex stays; ≥ 0; the paper has no bound
+  StepRule step = StepRule::umbrella;  ///< the paper's
+};
+
+/// Moves of one round or of all.
+struct MoveCounts {
+  std::size_t accepted = 0;   ///< moves made, the shortened ones included
+  std::size_t shortened = 0;  ///< of these, made with a halved step
+  std::size_t refused = 0;    ///< not made, whatever the step
+};
+
+struct RoundReport {
+  std::size_t active = 0;  ///< vertices visited
+  MoveCounts moves;
+  double longest_move = 0;  ///< Å
+};
+
+struct SmoothingReport {
+  std::vector<RoundReport> rounds;
+  MoveCounts moves;             ///< over all rounds
+  std::size_t stuck = 0;        ///< vertices whose last move was refused and around which nothing has moved since
+  std::size_t low_quality = 0;  ///< triangles below the thresholds when it stopped (of those screened last)
+  std::string stopped_because;  ///< "quality reached", "nothing moved" or "rounds"
+};
+
+/// Moves each vertex towards the mean of its neighbours, as far as no two triangles come to intersect.
+///
+/// Modified Laplacian smoothing (Liu et al. 2017, section 0.3, algorithm 3): one sweep over all vertices, then sweeps over the corners of
+/// low-quality triangles and their neighbours, which are chosen anew every few sweeps. The step starts whole and is halved while
+/// `MoveGuard` refuses the move. Vertices are visited in ascending order and moved at once (Gauss–Seidel). A vertex that is refused leaves
+/// the active set until something around it moves. Connectivity does not change; no pair of triangles intersects afterwards that did not
+/// before. \param mesh  positions in Å, changed in place. \pre mesh is a closed, oriented manifold (see `check_validity`). Cost: about a
+/// microsecond a move, after an O(n) build of the spatial index.
+SmoothingReport smooth(TriangleMesh& mesh, const SmoothingOptions& options, const ProgressCallback& progress = {});
+
+}  // namespace smopt

@@ -1,0 +1,108 @@
+#include "smopt/mesh/orientation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "smopt/error.h"
+#include "smopt/geometry/triangle_shape.h"
+
+namespace smopt {
+namespace {
+
+/// One side of an edge: the triangle and whether it uses the edge from the smaller to the larger vertex.
+struct EdgeSide {
+  VertexId low, high;
+  FaceId face;
+  bool is_ascending;
+};
+
+std::vector<EdgeSide> sorted_edge_sides(const TriangleMesh& mesh) {
+  std::vector<EdgeSide> sides;
+  sides.reserve(3 * mesh.triangle_count());
+  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
+    for (int i = 0; i < 3; ++i) {
+      const VertexId a = mesh.triangles[f][i], b = mesh.triangles[f][(i + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), f, a < b});
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const EdgeSide& s, const EdgeSide& t) { return std::tie(s.low, s.high, s.face) < std::tie(t.low, t.high, t.face); });
+  return sides;
+}
+
+/// A triangle across an edge, and whether it must be turned when this one is not (and the other way round).
+struct Neighbour {
+  FaceId face;
+  bool disagrees;
+  VertexId low, high;
+};
+
+std::vector<std::array<Neighbour, 3>> face_neighbours(const TriangleMesh& mesh) {
+  const std::vector<EdgeSide> sides = sorted_edge_sides(mesh);
+  std::vector<std::array<Neighbour, 3>> neighbours(mesh.triangle_count());
+  std::vector<unsigned char> count(mesh.triangle_count(), 0);
+  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+    const EdgeSide &s = sides[i], &t = sides[i + 1];
+    const bool disagrees = s.is_ascending == t.is_ascending;
+    neighbours[s.face][count[s.face]++] = {t.face, disagrees, s.low, s.high};
+    neighbours[t.face][count[t.face]++] = {s.face, disagrees, s.low, s.high};
+  }
+  return neighbours;
+}
+
+}  // namespace
+
+std::size_t orient_consistently(TriangleMesh& mesh) {
+  const std::vector<std::array<Neighbour, 3>> neighbours = face_neighbours(mesh);
+  enum class State : unsigned char { unseen, as_it_is, to_turn };
+  std::vector<State> states(mesh.triangle_count(), State::unseen);
+  std::vector<FaceId> stack;
+  for (FaceId seed = 0; seed < mesh.triangle_count(); ++seed) {
+    if (states[seed] != State::unseen) continue;
+    states[seed] = State::as_it_is;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const FaceId f = stack.back();
+      stack.pop_back();
+      for (const Neighbour& n : neighbours[f]) {
+        const bool is_turned = (states[f] == State::to_turn) != n.disagrees;
+        const State wanted = is_turned ? State::to_turn : State::as_it_is;
+        if (states[n.face] == State::unseen) {
+          states[n.face] = wanted;
+          stack.push_back(n.face);
+        } else if (states[n.face] != wanted) {
+          throw InvalidMesh(
+              fmt::format("the surface is one-sided: it cannot be oriented across edge {}-{} (faces {} and {})", n.low, n.high, f, n.face));
+        }
+      }
+    }
+  }
+  std::size_t turned = 0;
+  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
+    if (states[f] != State::to_turn) continue;
+    std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+    ++turned;
+  }
+  return turned;
+}
+
+std::vector<double> component_volumes(const TriangleMesh& mesh, const Components& components) {
+  std::vector<double> volumes(components.count, 0);
+  std::vector<Vec3> origins(components.count);
+  std::vector<char> has_origin(components.count, 0);
+  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    const std::uint32_t i = components.of_triangle[f];
+    if (has_origin[i] == 0) origins[i] = mesh.points[a];
+    has_origin[i] = 1;
+    volumes[i] += sextuple_volume(mesh.points[a] - origins[i], mesh.points[b] - origins[i], mesh.points[c] - origins[i]) / 6;
+  }
+  return volumes;
+}
+
+void reverse_orientation(TriangleMesh& mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+}  // namespace smopt

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "smopt/mesh/stars.h"
+#include "smopt/mesh/triangle_mesh.h"
+
+namespace smopt {
+
+/// The one-ring of each vertex of a closed, oriented manifold, in order around it: triangle `faces(v)[i]` has the corners v,
+/// `vertices(v)[i]` and `vertices(v)[i + 1]` (cyclic), anticlockwise seen from outside.
+struct VertexRings {
+  std::vector<std::uint32_t> offsets;   ///< vertex_count + 1 entries
+  std::vector<VertexId> ring_vertices;  ///< 3 × triangle_count entries
+  std::vector<FaceId> ring_faces;       ///< the same
+
+  [[nodiscard]] std::size_t vertex_count() const { return offsets.empty() ? 0 : offsets.size() - 1; }
+  [[nodiscard]] std::uint32_t valence(VertexId v) const { return offsets[v + 1] - offsets[v]; }
+  [[nodiscard]] std::span<const VertexId> vertices(VertexId v) const { return {ring_vertices.data() + offsets[v], valence(v)}; }
+  [[nodiscard]] std::span<const FaceId> faces(VertexId v) const { return {ring_faces.data() + offsets[v], valence(v)}; }
+};
+
+/// Orders the triangles of one star into a single cycle. Appends to `vertices` and `faces`; false (nothing appended) where they form none:
+/// an open fan, several fans, an edge with other than two triangles, triangles that disagree in orientation, or fewer than three triangles.
+bool append_ring(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star, std::vector<VertexId>& vertices,
+                 std::vector<FaceId>& faces);
+
+/// The rings of the whole mesh, or nothing when some vertex that has triangles has no ring: the mesh is then not a closed, oriented
+/// manifold. Vertices without triangles get an empty ring. Cost: O(n).
+std::optional<VertexRings> build_rings(const TriangleMesh& mesh);
+
+}  // namespace smopt

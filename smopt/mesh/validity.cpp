@@ -1,0 +1,169 @@
+#include "smopt/mesh/validity.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "smopt/error.h"
+#include "smopt/mesh/rings.h"
+#include "smopt/mesh/stars.h"
+
+namespace smopt {
+namespace {
+
+template <class... Args>
+void note(Fault& fault, fmt::format_string<Args...> format, Args&&... args) {
+  if (fault.count++ < kMaxFaultExamples) fault.examples.push_back(fmt::format(format, std::forward<Args>(args)...));
+}
+
+void find_nonfinite_vertices(const TriangleMesh& mesh, ValidityReport& report) {
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& p = mesh.points[v];
+    if (!p.allFinite()) note(report.nonfinite_vertices, "vertex {} at ({}, {}, {})", v, p[0], p[1], p[2]);
+  }
+}
+
+bool has_repeated_corner(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+void find_repeated_corners(const TriangleMesh& mesh, ValidityReport& report) {
+  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (has_repeated_corner(t)) note(report.repeated_corners, "face {} ({} {} {})", f, t[0], t[1], t[2]);
+  }
+}
+
+struct DirectedEdge {
+  VertexId low, high;
+  bool is_ascending;
+  FaceId face;
+};
+
+std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(3 * mesh.triangle_count());
+  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (has_repeated_corner(t)) continue;
+    for (int i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]), t[i] < t[(i + 1) % 3], f});
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const DirectedEdge& a, const DirectedEdge& b) { return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face); });
+  return edges;
+}
+
+void find_bad_edges(const TriangleMesh& mesh, ValidityReport& report) {
+  const std::vector<DirectedEdge> edges = sorted_edges(mesh);
+  for (auto it = edges.begin(); it != edges.end();) {
+    const auto end = std::find_if(it, edges.end(), [&](const DirectedEdge& e) { return e.low != it->low || e.high != it->high; });
+    const auto uses = end - it;
+    if (uses == 1) note(report.boundary_edges, "edge {}-{} (face {})", it->low, it->high, it->face);
+    if (uses > 2) note(report.nonmanifold_edges, "edge {}-{} with {} faces (face {} first)", it->low, it->high, uses, it->face);
+    if (uses == 2 && it->is_ascending == (it + 1)->is_ascending)
+      note(report.inconsistent_edges, "edge {}-{} (faces {} and {})", it->low, it->high, it->face, (it + 1)->face);
+    it = end;
+  }
+}
+
+void find_duplicate_faces(const TriangleMesh& mesh, ValidityReport& report) {
+  std::vector<std::pair<Triangle, FaceId>> faces;
+  faces.reserve(mesh.triangle_count());
+  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
+    Triangle t = mesh.triangles[f];
+    std::sort(t.begin(), t.end());
+    faces.emplace_back(t, f);
+  }
+  std::sort(faces.begin(), faces.end());
+  for (std::size_t i = 1; i < faces.size(); ++i)
+    if (faces[i].first == faces[i - 1].first) note(report.duplicate_faces, "faces {} and {}", faces[i - 1].second, faces[i].second);
+}
+
+/// How many fans (edge-connected groups) the triangles around v form, by repeatedly joining those that share an edge at v.
+std::size_t count_fans(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star) {
+  std::vector<std::size_t> group(star.size());
+  for (std::size_t i = 0; i < star.size(); ++i) group[i] = i;
+  std::size_t fans = star.size();
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Triangle &s = mesh.triangles[star[i]], &t = mesh.triangles[star[j]];
+      const auto is_shared = [&](VertexId w) { return w != v && std::find(t.begin(), t.end(), w) != t.end(); };
+      if (group[i] == group[j] || std::none_of(s.begin(), s.end(), is_shared)) continue;
+      std::replace(group.begin(), group.end(), std::size_t{group[j]}, std::size_t{group[i]});
+      --fans;
+    }
+  }
+  return fans;
+}
+
+void find_nonmanifold_vertices(const TriangleMesh& mesh, const VertexStars& stars, ValidityReport& report) {
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    const std::size_t fans = stars[v].empty() ? 1 : count_fans(mesh, v, stars[v]);
+    if (fans > 1) note(report.nonmanifold_vertices, "vertex {} with {} fans", v, fans);
+  }
+}
+
+/// The slow search, once something is known to be wrong.
+void find_faults(const TriangleMesh& mesh, const VertexStars& stars, ValidityReport& report) {
+  find_repeated_corners(mesh, report);
+  find_bad_edges(mesh, report);
+  find_duplicate_faces(mesh, report);
+  find_nonmanifold_vertices(mesh, stars, report);
+}
+
+bool has_all_rings(const TriangleMesh& mesh, const VertexStars& stars) {
+  std::vector<VertexId> ring;
+  std::vector<FaceId> faces;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    ring.clear();
+    faces.clear();
+    if (!stars[v].empty() && !append_ring(mesh, v, stars[v], ring, faces)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool ValidityReport::is_closed_manifold() const {
+  return !is_empty && !nonfinite_vertices.any() && !repeated_corners.any() && !boundary_edges.any() && !nonmanifold_edges.any() &&
+         !nonmanifold_vertices.any() && !duplicate_faces.any();
+}
+
+std::string ValidityReport::describe() const {
+  const std::array<std::pair<const Fault*, const char*>, 7> kinds = {{
+      {&nonfinite_vertices, "vertices with a coordinate that is not finite"},
+      {&repeated_corners, "triangles with a repeated corner"},
+      {&boundary_edges, "boundary edges (the surface is open)"},
+      {&nonmanifold_edges, "non-manifold edges"},
+      {&inconsistent_edges, "edges with inconsistent orientation"},
+      {&nonmanifold_vertices, "non-manifold vertices"},
+      {&duplicate_faces, "duplicate faces"},
+  }};
+  std::vector<std::string> parts;
+  if (is_empty) parts.emplace_back("the mesh has no triangles");
+  for (const auto& [fault, name] : kinds) {
+    if (!fault->any()) continue;
+    const bool has_more = fault->count > fault->examples.size();
+    parts.push_back(fmt::format("{} {}: {}{}", fault->count, name, fmt::join(fault->examples, ", "), has_more ? ", …" : ""));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+ValidityReport check_validity(const TriangleMesh& mesh) {
+  ValidityReport report;
+  report.is_empty = mesh.triangles.empty();
+  find_nonfinite_vertices(mesh, report);
+  const VertexStars stars = build_stars(mesh);
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) report.isolated_vertices += stars[v].empty() ? 1 : 0;
+  if (!has_all_rings(mesh, stars)) find_faults(mesh, stars, report);
+  return report;
+}
+
+void require_closed_manifold(const ValidityReport& report) {
+  if (!report.is_closed_manifold()) throw InvalidMesh("not a closed manifold: " + report.describe());
+}
+
+}  // namespace smopt
