@@ -6,23 +6,6 @@
 #include "smopt/geometry/swept_triangle.h"
 
 namespace smopt {
-namespace {
-
-/// Projections of points no farther than R along an axis carry a rounding error below 5·2⁻⁵³ R |axis|₁; ten times that decides safely.
-constexpr double kSeparationMarginRel = 6e-15;
-
-/// An interval of projections on an axis.
-struct Interval {
-  double low, high;
-};
-
-template <class... Values>
-Interval interval_of(Values... values) {
-  return {std::min({values...}), std::max({values...})};
-}
-
-}  // namespace
-
 MoveGuard::MoveGuard(TriangleMesh& mesh, const VertexRings& rings)
     : mesh_(mesh), rings_(rings), grid_(mesh.points, mesh.triangles), axes_(mesh.vertex_count()), ring_marks_(mesh.vertex_count(), 0) {}
 
@@ -44,6 +27,7 @@ void MoveGuard::mark_ring(bool is_selected) {
 
 void MoveGuard::gather_candidates() {
   has_candidates_ = true;
+  separation_.set_star(ring_points_);
   candidates_.clear();
   Vec3 low = (reach_ - position_).cwiseMin(0.0), high = (reach_ - position_).cwiseMax(0.0);
   for (const Vec3& p : ring_points_) {
@@ -56,7 +40,7 @@ void MoveGuard::gather_candidates() {
     Candidate candidate{f, {}, {}};
     for (int i = 0; i < 3; ++i) {
       candidate.slots[i] = static_cast<int>(ring_marks_[t[i]]) - 1;
-      candidate.points[i] = mesh_.points[t[i]] - position_;
+      candidate.points[i] = (mesh_.points[t[i]] - position_).cast<float>();
     }
     candidates_.push_back(candidate);
   });
@@ -67,6 +51,7 @@ bool MoveGuard::is_move_ok(const Vec3& target) {
   if (!is_star_ok()) return false;
   judge_ring_cones();
   if (!has_candidates_) gather_candidates();
+  separation_.set_target(displacement_, is_known(vertex_axis_) ? to_vector(vertex_axis_) : mean_normal());
   return std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return is_clear_of(c); });
 }
 
@@ -93,6 +78,12 @@ void MoveGuard::prepare_target(const Vec3& target) {
     spoke = next_spoke;
   }
   cone_margin_ = kConeMarginRel * longest2;
+}
+
+Vec3 MoveGuard::mean_normal() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& n : normals_) sum += n;
+  return sum.squaredNorm() > 0 ? sum : Vec3(Vec3::UnitZ());
 }
 
 bool MoveGuard::is_star_ok() {
@@ -158,37 +149,18 @@ bool MoveGuard::is_fold_free_on_the_way() const {
   return true;
 }
 
-bool MoveGuard::is_clear_of(const Candidate& candidate) const {
-  for (std::size_t k = 0; k < ring_.size(); ++k) {
-    if (is_settled_by_cone(candidate, k) || is_separated(candidate, k)) continue;
-    if (meets_sweep_of(candidate, k)) return false;
-  }
-  return true;
-}
-
-bool MoveGuard::is_settled_by_cone(const Candidate& candidate, std::size_t k) const {
+bool MoveGuard::is_clear_of(const Candidate& candidate) {
+  separation_.open_all();
   for (const int slot : candidate.slots) {
-    if (slot != static_cast<int>(k) && slot != static_cast<int>(next(k))) continue;
-    if (is_known(ring_axes_[static_cast<std::size_t>(slot)])) return true;  // both triangles are in that vertex's star
+    // A cone of a shared vertex settles the two triangles of the star that have the vertex too.
+    if (slot == kNotOnRing || !is_known(ring_axes_[static_cast<std::size_t>(slot)])) continue;
+    separation_.close(static_cast<std::size_t>(slot));
+    separation_.close(previous(static_cast<std::size_t>(slot)));
   }
-  return false;
-}
-
-bool MoveGuard::is_separated(const Candidate& candidate, std::size_t k) const {
-  const auto& [p0, p1, p2] = candidate.points;
-  const Vec3 &a = ring_points_[k], &b = ring_points_[next(k)];
-  const double radius = std::max({p0.cwiseAbs().maxCoeff(), p1.cwiseAbs().maxCoeff(), p2.cwiseAbs().maxCoeff(), a.cwiseAbs().maxCoeff(),
-                                  b.cwiseAbs().maxCoeff(), displacement_.cwiseAbs().maxCoeff()});
-  const auto is_apart_along = [&](const Vec3& axis) {
-    const Interval t = interval_of(axis.dot(p0), axis.dot(p1), axis.dot(p2));
-    const Interval s = interval_of(axis.dot(a), axis.dot(b), axis.dot(displacement_), 0.0);
-    const double margin = kSeparationMarginRel * radius * axis.cwiseAbs().sum();
-    return t.low - s.high > margin || s.low - t.high > margin;
-  };
-  const Vec3 up = is_known(vertex_axis_) ? to_vector(vertex_axis_) : normals_[k];
-  return is_apart_along(up.cross(b - a)) || is_apart_along(normals_[k]) || is_apart_along((p1 - p0).cross(p2 - p0)) ||
-         is_apart_along(up.cross(a - displacement_)) || is_apart_along(up.cross(b - displacement_)) || is_apart_along(up.cross(p1 - p0)) ||
-         is_apart_along(up.cross(p2 - p1)) || is_apart_along(up.cross(p0 - p2));
+  if (separation_.separate(candidate.points)) return true;
+  for (std::size_t k = 0; k < ring_.size(); ++k)
+    if (separation_.is_open(k) && meets_sweep_of(candidate, k)) return false;
+  return true;
 }
 
 bool MoveGuard::meets_sweep_of(const Candidate& candidate, std::size_t k) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "smopt/geometry/normal_cone.h"
+#include "smopt/geometry/sweep_separation.h"
 #include "smopt/geometry/triangle_grid.h"
 #include "smopt/mesh/rings.h"
 #include "smopt/mesh/triangle_mesh.h"
@@ -47,22 +48,21 @@ class MoveGuard {
   struct Candidate {
     FaceId face;
     std::array<int, 3> slots;
-    std::array<Vec3, 3> points;
+    SweepSeparation::Corners points;
   };
   static constexpr int kNotOnRing = -1;
 
   void mark_ring(bool is_selected);
   void gather_candidates();
   void prepare_target(const Vec3& target);
+  [[nodiscard]] Vec3 mean_normal() const;
   [[nodiscard]] bool is_star_ok();
   [[nodiscard]] bool is_fold_free_at_target() const;
   [[nodiscard]] bool is_fold_free_on_the_way() const;
   [[nodiscard]] ConeAxis find_own_axis() const;
   [[nodiscard]] ConeAxis find_ring_axis(std::size_t slot) const;
   void judge_ring_cones();
-  [[nodiscard]] bool is_clear_of(const Candidate& candidate) const;
-  [[nodiscard]] bool is_settled_by_cone(const Candidate& candidate, std::size_t k) const;
-  [[nodiscard]] bool is_separated(const Candidate& candidate, std::size_t k) const;
+  [[nodiscard]] bool is_clear_of(const Candidate& candidate);
   [[nodiscard]] bool meets_sweep_of(const Candidate& candidate, std::size_t k) const;
   [[nodiscard]] std::size_t next(std::size_t slot) const { return slot + 1 < ring_.size() ? slot + 1 : 0; }
   [[nodiscard]] std::size_t previous(std::size_t slot) const { return slot > 0 ? slot - 1 : ring_.size() - 1; }
@@ -81,6 +81,7 @@ class MoveGuard {
   std::vector<Vec3> ring_points_;  // relative to position_
   std::vector<Candidate> candidates_;
   bool has_candidates_ = false;
+  SweepSeparation separation_;
 
   // The target asked for last.
   Vec3 target_ = Vec3::Zero();

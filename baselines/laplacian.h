@@ -1,0 +1,26 @@
+#pragma once
+
+#include "smopt/improve/method.h"
+#include "smopt/mesh/triangle_mesh.h"
+#include "smopt/progress.h"
+
+namespace smopt::baselines {
+
+/// Whether a round uses the positions of the round before (Jacobi) or those already moved in it (Gauss–Seidel, in ascending order).
+enum class SweepOrder { jacobi, gauss_seidel };
+
+struct LaplacianOptions {
+  int rounds = 100;  ///< sweeps over all vertices; ≥ 0
+  double beta = 1;   ///< part of the way to the mean of the neighbours; the paper: 1
+  SweepOrder order = SweepOrder::jacobi;
+};
+
+/// Plain Laplacian smoothing, x ← (1 − β) x + β · mean of the one-ring (Liu et al. 2017, equations 3 and 4): every vertex, every round, no
+/// test of any kind. \pre mesh is a closed, oriented manifold; vertices without triangles stay. Cost: about ten nanoseconds a vertex and
+/// round.
+void smooth_laplacian(TriangleMesh& mesh, const LaplacianOptions& options, const ProgressCallback& progress = {});
+
+/// Its entry in the registry.
+Method laplacian_method();
+
+}  // namespace smopt::baselines

@@ -1,0 +1,16 @@
+#include "smopt/improve/improve.h"
+
+namespace smopt {
+
+ImproveReport improve(TriangleMesh& mesh, const ImproveOptions& options, const ProgressCallback& progress) {
+  ImproveReport report;
+  report.preparation = prepare(mesh, options.cavities);
+  report.seconds = report.preparation.seconds;
+  report.redundant = timed(report.seconds, "redundant", [&] {
+    return options.deletes_redundant_points ? remove_redundant_points(mesh, options.redundant, progress) : RedundantPointReport{};
+  });
+  report.smoothing = timed(report.seconds, "smoothing", [&] { return smooth(mesh, options.smoothing, progress); });
+  return report;
+}
+
+}  // namespace smopt

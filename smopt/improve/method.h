@@ -1,0 +1,87 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "smopt/improve/cavities.h"
+#include "smopt/improve/smoothing.h"
+#include "smopt/mesh/triangle_mesh.h"
+#include "smopt/progress.h"
+#include "smopt/timing.h"
+
+namespace smopt {
+
+/// One option of a method, as the program, the experiments and the documentation show it.
+struct MethodOption {
+  enum class Kind { integer, number, choice, text };
+
+  std::string name;  ///< as on the command line, without the dashes
+  Kind kind = Kind::text;
+  std::string default_value;  ///< the only place where the default is written
+  std::string unit;           ///< empty where there is none
+  std::string help;
+  std::vector<std::string> choices;  ///< for Kind::choice
+};
+
+/// The values of a method's options by name, defaults filled in.
+class OptionValues {
+ public:
+  OptionValues() = default;
+  /// \throws InvalidOption for a name that is none of the options, a value of the wrong kind or a choice that is none.
+  OptionValues(const std::vector<MethodOption>& options, const std::map<std::string, std::string>& given);
+
+  /// \throws InvalidOption when the value is no whole number (number) of at least `at_least`.
+  [[nodiscard]] int integer(const std::string& name, int at_least) const;
+  [[nodiscard]] double number(const std::string& name, double at_least) const;
+  [[nodiscard]] const std::string& text(const std::string& name) const;
+  [[nodiscard]] const std::map<std::string, std::string>& all() const { return values_; }
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+/// What a method reports, whichever it is.
+struct MethodReport {
+  std::size_t redundant_valence3 = 0;
+  std::size_t redundant_valence4 = 0;
+  std::vector<RoundReport> rounds;
+  MoveCounts moves;
+  std::size_t stuck = 0;
+  std::string stopped_because;
+  StageTimes seconds;  ///< at least "smoothing"
+};
+
+/// One way of improving a mesh.
+struct Method {
+  std::string name;
+  std::string summary;  ///< one line
+  std::string source;   ///< where it comes from, with the year
+  CavityPolicy default_cavities = CavityPolicy::keep;
+  std::vector<MethodOption> options;
+  /// Improves a mesh that `prepare` has passed.
+  std::function<MethodReport(TriangleMesh&, const OptionValues&, const ProgressCallback&)> run;
+};
+
+/// The methods by name, in the order in which they were added.
+class MethodRegistry {
+ public:
+  void add(Method method) { methods_.push_back(std::move(method)); }
+  [[nodiscard]] const std::vector<Method>& all() const { return methods_; }
+  /// \throws InvalidOption that lists the names when there is no such method.
+  [[nodiscard]] const Method& find(std::string_view name) const;
+
+ private:
+  std::vector<Method> methods_;
+};
+
+/// Adds `smopt`.
+void register_smopt(MethodRegistry& registry);
+
+/// "delete", "keep" or "main". \throws InvalidOption for anything else.
+CavityPolicy parse_cavity_policy(std::string_view text);
+std::string_view to_string(CavityPolicy policy);
+
+}  // namespace smopt

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include "smopt/error.h"
+#include "smopt/improve/method.h"
+#include "smopt/improve/redundant_points.h"
+#include "smopt/improve/smoothing.h"
+
+namespace smopt {
+namespace {
+
+using Kind = MethodOption::Kind;
+
+/// The options with the defaults of the library's own structs, so that no default is written twice.
+std::vector<MethodOption> smopt_options() {
+  const SmoothingOptions smoothing;
+  const RedundantPointOptions redundant;
+  const auto text = [](auto value) { return fmt::format("{}", value); };
+  return {
+      {"rounds", Kind::integer, text(smoothing.rounds), "", "sweeps of smoothing; 0: cavities and redundant points only", {}},
+      {"rounds-per-screening",
+       Kind::integer,
+       text(smoothing.rounds_per_screening),
+       "",
+       "sweeps between two choices of the active vertices",
+       {}},
+      {"edge-ratio",
+       Kind::number,
+       text(smoothing.thresholds.edge_ratio),
+       "",
+       "smooth triangles again whose shortest/longest edge is below",
+       {}},
+      {"min-angle",
+       Kind::number,
+       text(smoothing.thresholds.min_angle_deg),
+       "degrees",
+       "smooth triangles again that have an angle below",
+       {}},
+      {"halvings", Kind::integer, text(smoothing.halvings), "", "how often a refused step is halved before the vertex stays", {}},
+      {"step",
+       Kind::choice,
+       "umbrella",
+       "",
+       "where a vertex wants to go (umbrella: the paper's)",
+       {"umbrella", "volume-preserving", "tangential"}},
+      {"redundant", Kind::choice, "delete", "", "points of valence 3 and 4 on their ring's plane or diagonal", {"delete", "keep"}},
+      {"tolerance", Kind::text, "1e-4", "Å", "distance below which a point is redundant; '1e-3rel' is relative to the local edge", {}},
+  };
+}
+
+StepRule parse_step(const std::string& text) {
+  if (text == "volume-preserving") return StepRule::volume_preserving;
+  return text == "tangential" ? StepRule::tangential : StepRule::umbrella;
+}
+
+RedundantPointOptions parse_tolerance(const OptionValues& values) {
+  constexpr std::string_view kRelative = "rel";
+  std::string text = values.text("tolerance");
+  RedundantPointOptions options;
+  options.is_tolerance_relative = text.ends_with(kRelative);
+  if (options.is_tolerance_relative) text.resize(text.size() - kRelative.size());
+  const std::vector<MethodOption> number = {{"tolerance", Kind::number, text, "", "", {}}};
+  options.tolerance = OptionValues(number, {}).number("tolerance", 0);
+  return options;
+}
+
+SmoothingOptions parse_smoothing(const OptionValues& values) {
+  SmoothingOptions options;
+  options.rounds = values.integer("rounds", 0);
+  options.rounds_per_screening = values.integer("rounds-per-screening", 1);
+  options.thresholds = {values.number("edge-ratio", 0), values.number("min-angle", 0)};
+  options.halvings = values.integer("halvings", 0);
+  options.step = parse_step(values.text("step"));
+  return options;
+}
+
+MethodReport run_smopt(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
+  const RedundantPointOptions redundant_options = parse_tolerance(values);
+  const SmoothingOptions smoothing_options = parse_smoothing(values);
+  MethodReport report;
+  const RedundantPointReport redundant = timed(report.seconds, "redundant", [&] {
+    return values.text("redundant") == "delete" ? remove_redundant_points(mesh, redundant_options, progress) : RedundantPointReport{};
+  });
+  SmoothingReport smoothing = timed(report.seconds, "smoothing", [&] { return smooth(mesh, smoothing_options, progress); });
+  report.redundant_valence3 = redundant.valence3;
+  report.redundant_valence4 = redundant.valence4;
+  report.rounds = std::move(smoothing.rounds);
+  report.moves = smoothing.moves;
+  report.stuck = smoothing.stuck;
+  report.stopped_because = smoothing.stopped_because;
+  return report;
+}
+
+}  // namespace
+
+void register_smopt(MethodRegistry& registry) {
+  registry.add({"smopt", "redundant points deleted, then Laplacian smoothing that never lets two triangles intersect",
+                "Liu, Chen, Song, Li, Lu, PLoS ONE 12(9): e0184206, 2017", CavityPolicy::delete_cavities, smopt_options(), run_smopt});
+}
+
+}  // namespace smopt
