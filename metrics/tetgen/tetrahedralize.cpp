@@ -11,6 +11,7 @@
 #include <regex>
 
 #include "metrics/intersections.h"
+#include "metrics/shape.h"
 #include "metrics/tetgen/child_process.h"
 #include "metrics/tetgen/verification.h"
 #include "metrics/tetgen/worker_location.h"
@@ -24,8 +25,8 @@ namespace {
 /// refining and coarsening (r, R, m, i), detecting (d), second order (o), weighting (w), hulls (c), other numbering (z), files (B, E, F, I,
 /// N, e, f, g, k, n, v).
 constexpr std::string_view kAllowedLetters = "pYqaASTMOXDCVQJ";
-constexpr std::string_view kAllowedInNumbers = "0123456789./,-+";
-constexpr std::size_t kLongestSwitches = 200;  ///< TetGen copies them into buffers of 1024 characters
+constexpr std::string_view kAllowedInNumbers = "0123456789./,-+e";  // as a switch, e only lists the edges too
+constexpr std::size_t kLongestSwitches = 200;                       ///< TetGen copies them into buffers of 1024 characters
 
 /// TetGen counts points and facets in ints, and three times as many array entries.
 constexpr std::size_t kLargestCount = std::numeric_limits<int>::max() / 3;
@@ -141,10 +142,18 @@ std::string merged_points(const std::string& output, const Trimmed& trimmed) {
   return fmt::format("near-duplicate points {} and {} (distance {:.3g}) were merged", trimmed.original[i], trimmed.original[j], distance);
 }
 
+/// An angle below this (degrees) is worth naming when TetGen gives up on a surface without intersections; it meshes thinner ones now and
+/// then.
+constexpr double kSuspiciousAngle = 1;
+
 /// What is known to be wrong with a surface that failed; empty when nothing is.
 std::string diagnosis(const TriangleMesh& surface) {
   const Intersections found = find_intersections(surface, {.list_limit = 1});
-  if (found.pairs.empty()) return {};
+  if (found.pairs.empty()) {
+    std::vector<std::string> ignored;
+    const double angle = measure_shape(surface, ignored).angle.min.value_or(kSuspiciousAngle);
+    return angle < kSuspiciousAngle ? fmt::format("no triangles intersect, the smallest angle is {:.3g}°", angle) : std::string();
+  }
   const auto [f, g] = found.pairs.front();
   if (found.count == 1U) return fmt::format("triangles {} and {} intersect", f, g);
   return fmt::format("{} pairs of triangles intersect, first {} and {}", *found.count, f, g);

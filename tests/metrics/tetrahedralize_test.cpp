@@ -216,6 +216,12 @@ TEST(Tetrahedralize, SwitchesThatChangeTheTaskAreRefused) {
   EXPECT_THROW((void)tetrahedralize(cube(), {.time_limit_seconds = 0}), InvalidOption);
 }
 
+TEST(Tetrahedralize, ASmallerToleranceTellsNearPointsApart) {
+  EXPECT_FALSE(run(cube_with_near_points(1e-9), "p").success);
+  const Tetrahedralization r = run(cube_with_near_points(1e-9), "pT1e-12");
+  EXPECT_TRUE(r.success) << r.reason;
+}
+
 TEST(Tetrahedralize, QuietAndVerboseSwitchesDoNotHideReasons) {
   EXPECT_THAT(run(cube_with_near_points(1e-9), "pQ").reason, HasSubstr("near-duplicate"));
   EXPECT_THAT(run(cube_with_near_points(1e-9), "pVV").reason, HasSubstr("near-duplicate"));
