@@ -27,6 +27,12 @@ class VertexMerger {
  public:
   explicit VertexMerger(std::vector<Vec3>& points) : points_(points) {}
 
+  /// Makes room for the vertices of a closed surface: half as many as it has triangles.
+  void reserve(std::size_t triangles) {
+    points_.reserve(triangles / 2 + 2);
+    ids_.reserve(triangles / 2 + 2);
+  }
+
   VertexId vertex(const Vec3& p) {
     const auto [it, is_new] = ids_.try_emplace(key_of(p), static_cast<VertexId>(points_.size()));
     if (is_new) points_.push_back(p);
@@ -76,6 +82,7 @@ TriangleMesh parse_binary(std::string_view bytes) {
   TriangleMesh mesh;
   mesh.triangles.resize(binary_count(bytes));
   VertexMerger merger(mesh.points);
+  merger.reserve(mesh.triangles.size());
   const char* corner = bytes.data() + kHeaderBytes;
   for (Triangle& triangle : mesh.triangles) {
     corner += kNormalBytes;
