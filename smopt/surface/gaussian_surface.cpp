@@ -11,8 +11,8 @@
 namespace smopt {
 namespace {
 
-/// A kernel is left out where it is below this part of the isovalue (of 1 for isovalues above 1): it would move the surface by about a
-/// millionth of an ångström.
+/// A kernel is left out where it is below this part of the isovalue (of 1 for isovalues above 1): where the field falls by 1 in an
+/// ångström, as it does around atoms, each moves the surface by less than a millionth of an ångström.
 constexpr double kLeastTermRelative = 1e-6;
 
 GaussianFieldOptions field_options(const GaussianSurfaceOptions& options) {

@@ -155,7 +155,7 @@ struct Tally {
 };
 
 /// The oracle's resolutions, in pairs: narrow necks and gaps of the level set fall through a coarse grid.
-constexpr std::pair<int, int> kResolutions[] = {{12, 17}, {34, 47}, {70, 95}};
+constexpr std::pair<int, int> kResolutions[] = {{12, 17}, {34, 47}, {70, 95}, {193, 210}};
 
 /// A pair of resolutions that both agree with us settles a cell; otherwise finer ones are asked. The finest pair condemns us if it agrees
 /// with itself, and says nothing otherwise.
@@ -220,18 +220,18 @@ bool has_face_tie(const CornerValues& v) {
 TEST(CellTopology, OfRandomCellsIsThatOfTheTrilinearInterpolant) {
   Random random(20170912);
   Tally tally;
-  for (int i = 0; i < 2000; ++i) compare_with_subdivision(uniform_values(random), tally);
-  EXPECT_GT(tally.compared, 1980);
+  for (int i = 0; i < 1200; ++i) compare_with_subdivision(uniform_values(random), tally);
+  EXPECT_GT(tally.compared, 1180);
 }
 
 TEST(CellTopology, OfRandomIntegerCellsIsThatOfTheTrilinearInterpolant) {
   Random random(5);
   Tally tally;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 1200; ++i) {
     const CornerValues values = integer_values(random);
     if (!has_face_tie(values)) compare_with_subdivision(values, tally);
   }
-  EXPECT_GT(tally.compared, 500);
+  EXPECT_GT(tally.compared, 200);
 }
 
 /// The sign patterns of Chernyaev's cases in which a tunnel is possible.
@@ -263,10 +263,10 @@ TEST_P(CellTopologyOfCase, WithAndWithoutTunnelIsThatOfTheTrilinearInterpolant) 
   Random random(GetParam().inside);
   Tally tally;
   for (const double bias : {0.3, 1.0, 3.0}) {
-    for (int i = 0; i < 80; ++i) compare_with_subdivision(values_of_case(GetParam(), bias, i % 4 == 0, random), tally);
+    for (int i = 0; i < 40; ++i) compare_with_subdivision(values_of_case(GetParam(), bias, i % 4 == 0, random), tally);
   }
-  EXPECT_GT(tally.compared, 230);
-  EXPECT_GE(tally.tunnels, 10) << "among " << tally.compared;
+  EXPECT_GT(tally.compared, 110);
+  EXPECT_GE(tally.tunnels, 8) << "among " << tally.compared;
   EXPECT_LT(tally.tunnels, tally.compared);
 }
 
@@ -319,10 +319,38 @@ TEST(CellTriangulation, HasNoContactsAndNothingInFacesForValuesOfAllMagnitudes) 
 
 TEST(CellTriangulation, HasNoContactsForTiedValues) {
   Random random(4);
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const CornerValues values = integer_values(random);
     expect_sound_patch(values, meshed(values));
   }
+}
+
+CornerValues raised(CornerValues values, double by) {
+  for (double& v : values) v += by;
+  return values;
+}
+
+bool has_tunnel(const CornerValues& values) {
+  return find_tunnel(values, trace_cell_loops(values)).has_value();
+}
+
+TEST(CellTriangulation, HasNoContactsWhereATunnelIsAboutToClose) {
+  Random random(6);
+  int closed = 0;
+  for (int i = 0; i < 150; ++i) {
+    const CornerValues values = values_of_case(kCases[i % 6], 1, true, random);
+    double open = 0;
+    double shut = i % 4 < 2 ? 5 : -5;  // all corners have one sign there
+    if (!has_tunnel(values) || has_tunnel(raised(values, shut))) continue;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (open + shut);
+      (has_tunnel(raised(values, middle)) ? open : shut) = middle;
+    }
+    for (const double by : {open, shut, open + 1e-9 * (open - shut), 0.999 * open})
+      expect_sound_patch(raised(values, by), meshed(raised(values, by)));
+    ++closed;
+  }
+  EXPECT_GT(closed, 100);
 }
 
 TEST(CellTunnel, OpensWhereTheSaddleReachesTheLevel) {

@@ -98,14 +98,14 @@ void expect_sound(const ScalarGrid& grid, const TriangleMesh& mesh, std::uint32_
 }
 
 TEST(TrilinearSurface, OfRandomValuesIsAClosedManifoldWithoutIntersections) {
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const ScalarGrid grid = random_grid(10, seed, uniform);
     expect_sound(grid, trilinear_surface(grid, 0), seed);
   }
 }
 
 TEST(TrilinearSurface, OfTiedValuesIsAClosedManifoldWithoutIntersections) {
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const ScalarGrid grid = random_grid(10, seed, small_integer);
     expect_sound(grid, trilinear_surface(grid, 0), seed);
   }
@@ -114,7 +114,7 @@ TEST(TrilinearSurface, OfTiedValuesIsAClosedManifoldWithoutIntersections) {
 TEST(TrilinearSurface, OfACheckerboardIsAClosedManifoldWithoutIntersections) {
   std::size_t tunnels = 0;
   std::size_t interior = 0;
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const ScalarGrid grid = checkerboard_grid(9, seed);
     TrilinearSurfaceReport report;
     expect_sound(grid, trilinear_surface(grid, 0, &report), seed);
@@ -122,13 +122,13 @@ TEST(TrilinearSurface, OfACheckerboardIsAClosedManifoldWithoutIntersections) {
     tunnels += report.tunnel_cells;
     interior += report.interior_vertices;
   }
-  EXPECT_GT(tunnels, 10U);
+  EXPECT_GT(tunnels, 5U);
   EXPECT_GT(interior, 100U);
 }
 
 TEST(TrilinearSurface, HasTheTopologyOfTheSubdividedField) {
   int compared = 0;
-  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     const ScalarGrid grid = random_grid(2, seed, uniform);
     const testing::SubdividedField fine(grid, 16);
     const testing::SubdividedField coarser(grid, 11);
@@ -141,7 +141,7 @@ TEST(TrilinearSurface, HasTheTopologyOfTheSubdividedField) {
     EXPECT_EQ(component_count(mesh), pieces) << "seed " << seed;
     ++compared;
   }
-  EXPECT_GT(compared, 40);
+  EXPECT_GT(compared, 20);
 }
 
 TEST(TrilinearSurface, IsTheSameForAnIsovalueAsForAShiftedField) {
