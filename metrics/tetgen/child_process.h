@@ -10,7 +10,7 @@
 namespace smopt::metrics {
 
 struct ProcessLimits {
-  double seconds = 600;       ///< wall time; the process and all it started are killed then
+  double seconds = 0;         ///< wall time, positive; the process and all it started are killed then
   std::size_t memory_mb = 0;  ///< address space (RLIMIT_AS); 0: no limit. Under AddressSanitizer there is none: it reserves terabytes
 };
 
