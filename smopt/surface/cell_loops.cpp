@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::uint8_t kNone = 0xff;
 
-/// Whether a·b >= c·d, exactly: a rounded product is monotonic, so only equal rounded products need their errors (short of underflow).
+/// Whether a·b >= c·d, exactly: a rounded product is monotonic, so only equal rounded products need their errors (short of
+/// underflow).
 bool product_not_less(double a, double b, double c, double d) {
   const double ab = a * b;
   const double cd = c * d;
@@ -59,8 +60,8 @@ class LoopTracer {
     }
   }
 
-  /// Side i of the face enters the inside: the piece that starts there ends where the inside is left again, or, around an outside corner,
-  /// at the side before.
+  /// Side i of the face enters the inside: the piece that starts there ends where the inside is left again, or, around an outside
+  /// corner, at the side before.
   void link_entry(const std::array<int, 4>& q, int i, bool joined) {
     int j = (i + 1) % 4;
     while (inside(q[(j + 1) % 4])) j = (j + 1) % 4;

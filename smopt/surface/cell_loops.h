@@ -8,8 +8,8 @@
 
 namespace smopt {
 
-/// The closed polygons in which the level set of a trilinear function meets the boundary of its cube. A corner is named by the edge of the
-/// cube on which it lies; a loop runs anticlockwise seen from the side of smaller values.
+/// The closed polygons in which the level set of a trilinear function meets the boundary of its cube. A corner is named by the edge
+/// of the cube on which it lies; a loop runs anticlockwise seen from the side of smaller values.
 struct CellLoops {
   static constexpr int kMaxLoops = 4;  ///< twelve edges, at least three a loop
 
@@ -29,10 +29,10 @@ inline bool is_inside(double value) {
   return value >= 0;
 }
 
-/// Traces the level set of zero around the cube. On a face whose corners alternate in sign the asymptotic decider (Nielson & Hamann 1991)
-/// says which corners belong together: the inside ones when the saddle's value is not negative. The comparison is exact, and the same from
-/// both cubes that share the face. \param values  field minus isovalue at the corners, finite; a corner is inside where its value is not
-/// negative.
+/// Traces the level set of zero around the cube. On a face whose corners alternate in sign the asymptotic decider (Nielson & Hamann
+/// 1991) says which corners belong together: the inside ones when the saddle's value is not negative. The comparison is exact, and
+/// the same from both cubes that share the face.
+/// \param values  field minus isovalue at the corners, finite; a corner is inside where its value is not negative.
 CellLoops trace_cell_loops(const cube::CornerValues& values);
 
 }  // namespace smopt

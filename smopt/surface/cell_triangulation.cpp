@@ -101,8 +101,8 @@ class PolygonTriangulations {
   Loop loop_;
 };
 
-/// All triangulations of the band between two loops without points of its own and without an edge in a face of the cube. Both loops run
-/// anticlockwise seen from the outside of the surface, so the band follows one forwards and the other backwards.
+/// All triangulations of the band between two loops without points of its own and without an edge in a face of the cube. Both loops
+/// run anticlockwise seen from the outside of the surface, so the band follows one forwards and the other backwards.
 class BandTriangulations {
  public:
   BandTriangulations(Loop forward, Loop backward) : forward_(forward), backward_(backward) {}

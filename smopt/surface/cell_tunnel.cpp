@@ -25,8 +25,9 @@ struct Linear {
   Number slope;
 };
 
-/// Whether columns a and c, of one sign, are joined at the maximum of the parabola Q(t) = a·c − b·d, while b and d have the other sign
-/// there. \return the sign (inside or not) of the joined columns.
+/// Whether columns a and c, of one sign, are joined at the maximum of the parabola Q(t) = a·c − b·d, while b and d have the other
+/// sign there.
+/// \return the sign (inside or not) of the joined columns.
 template <class Number>
 std::optional<bool> joined_at_maximum(const std::array<Linear<Number>, 4>& column) {
   const auto& [a, b, c, d] = column;
@@ -79,8 +80,8 @@ std::optional<CornerPair> find_interior_join(const cube::CornerValues& values) {
 
 // ---- the waist ----
 
-/// The waist is at least this far from its centre on each axis, in edges of the cube, or half the way to the cube's faces. A level set that
-/// is narrower differs from the cylinder of this width by the square of it in value.
+/// The waist is at least this far from its centre on each axis, in edges of the cube, or half the way to the cube's faces. A level
+/// set that is narrower differs from the cylinder of this width by the square of it in value.
 constexpr double kLeastHalfWidth = 0.02;
 
 /// No point of the waist is nearer to a face of the cube, in edges of the cube: rounding must not put it there.

@@ -6,8 +6,8 @@
 /// Numbering of a cube's corners, edges and faces, and which belongs to which.
 ///
 /// Corner: bit a of its number is its place (0 low, 1 high) on axis a (x, y, z).
-/// Edge: 4·axis + k, parallel to `axis`; with u and v the axes that follow it cyclically, bit 0 of k is its place on u, bit 1 its place on
-/// v. Face: 2·axis + side, perpendicular to `axis`.
+/// Edge: 4·axis + k, parallel to `axis`; with u and v the axes that follow it cyclically, bit 0 of k is its place on u, bit 1 on v.
+/// Face: 2·axis + side, perpendicular to `axis`.
 namespace smopt::cube {
 
 inline constexpr int kCorners = 8;

@@ -15,11 +15,12 @@ struct GaussianFieldOptions {
 
 /// Samples φ(x) = Σ exp(-d(|x - x_i|² - r_i²)) (Liu et al. 2017, equations 1 and 2) on a uniform grid around the molecule.
 ///
-/// The kernel is separable: three one-dimensional exponentials an atom, then products. The box holds every point where a term is not below
-/// `least_term`, so the field is zero on its outermost nodes.
+/// The kernel is separable: three one-dimensional exponentials an atom, then products. The box holds every point where a term is not
+/// below `least_term`, so the field is zero on its outermost nodes.
 /// \throws InvalidInput for a molecule without atoms, a negative or non-finite radius or coordinate, a radius for which the kernel
-/// overflows, or a grid of more than 2³¹ nodes. \throws InvalidOption for an option out of its range. Cost: O(atoms × kernel support + grid
-/// nodes); eight bytes a node.
+/// overflows, or a grid of more than 2³¹ nodes.
+/// \throws InvalidOption for an option out of its range.
+/// Cost: O(atoms × kernel support + grid nodes); eight bytes a node.
 ScalarGrid gaussian_field(const Molecule& molecule, const GaussianFieldOptions& options, const ProgressCallback& progress = {});
 
 }  // namespace smopt

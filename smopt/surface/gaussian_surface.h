@@ -27,11 +27,13 @@ struct GaussianSurfaceReport {
 
 /// Meshes the Gaussian surface φ = c of a molecule on a uniform grid.
 ///
-/// φ(x) = Σ exp(-d(|x - x_i|² - r_i²)) (Liu et al. 2017, equations 1 and 2), sampled at the nodes of a grid. The mesh has one vertex on
-/// each grid edge that the surface crosses, at the zero of the linear interpolant along the edge, and is closed, edge- and vertex-manifold,
-/// oriented outwards (towards smaller φ), free of intersections, and topologically that of the trilinear interpolant in every cell. A few
-/// ambiguous cells get a vertex inside as well (see `trilinear_surface`). \throws InvalidInput for a molecule without atoms, a negative or
-/// non-finite radius or coordinate, or an isovalue that the field never reaches. \throws InvalidOption for an option out of its range.
+/// φ(x) = Σ exp(-d(|x - x_i|² - r_i²)) (Liu et al. 2017, equations 1 and 2), sampled at the nodes of a grid. The mesh has one vertex
+/// on each grid edge that the surface crosses, at the zero of the linear interpolant along the edge, and is closed, edge- and
+/// vertex-manifold, oriented outwards (towards smaller φ), free of intersections, and topologically that of the trilinear interpolant
+/// in every cell. A few ambiguous cells get a vertex inside as well (see `trilinear_surface`).
+/// \throws InvalidInput for a molecule without atoms, a negative or non-finite radius or coordinate, or an isovalue that the field
+/// never reaches.
+/// \throws InvalidOption for an option out of its range.
 /// Cost: O(atoms × kernel support + grid nodes).
 TriangleMesh gaussian_surface(const Molecule& molecule, const GaussianSurfaceOptions& options, GaussianSurfaceReport* report = nullptr,
                               const ProgressCallback& progress = {});

@@ -14,8 +14,8 @@
 namespace smopt {
 namespace {
 
-/// A vertex keeps this distance from the ends of its edge, in edges, so that it is strictly inside: a node whose value is the isovalue
-/// would else be the place of up to six vertices.
+/// A vertex keeps this distance from the ends of its edge, in edges, so that it is strictly inside: a node whose value is the
+/// isovalue would else be the place of up to six vertices.
 constexpr double kLeastParameter = 1e-6;
 
 /// Coordinates up to this many spacings from the origin resolve the least parameter by at least 16 steps of a double.
