@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Interval_nt.h>
 #include <CGAL/Simple_cartesian.h>
 
 namespace smopt {
@@ -9,17 +10,26 @@ namespace {
 
 using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+using Bounds = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
 
 Inexact::Point_3 to_point(const Vec3& p) {
   return {p[0], p[1], p[2]};
 }
-Exact::Point_3 to_exact(const Vec3& p) {
-  return {p[0], p[1], p[2]};
-}
 
-/// det(b − a, c − a, d − a).
-CGAL::Exact_rational determinant(const Exact::Point_3& a, const Exact::Point_3& b, const Exact::Point_3& c, const Exact::Point_3& d) {
-  return CGAL::determinant(b - a, c - a, d - a);
+/// The question of `touches_sector_on_the_way`, in the arithmetic of a kernel; "yes" also where the three points a, b and x(t) are
+/// collinear.
+template <class Kernel>
+CGAL::Uncertain<bool> touches_sector(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x, const Vec3& x_new) {
+  using Point = typename Kernel::Point_3;
+  using Vector = typename Kernel::Vector_3;
+  const Point pa(a[0], a[1], a[2]), pb(b[0], b[1], b[2]), pc(c[0], c[1], c[2]), from(x[0], x[1], x[2]), to(x_new[0], x_new[1], x_new[2]);
+  const auto before = CGAL::determinant(pb - pa, pc - pa, from - pa);
+  const auto after = CGAL::determinant(pb - pa, pc - pa, to - pa);
+  const Point at = from + (to - from) * (before / (before - after));
+  const Vector da = pa - at, db = pb - at, dc = pc - at;
+  const Vector normal = CGAL::cross_product(da, db);
+  // c is outside the sector exactly when it lies beyond one of its two sides; with a zero normal neither product is negative.
+  return !((CGAL::cross_product(da, dc) * normal < 0) | (CGAL::cross_product(dc, db) * normal < 0));
 }
 
 }  // namespace
@@ -33,14 +43,12 @@ int exact_orient2d(double ax, double ay, double bx, double by, double cx, double
 }
 
 bool touches_sector_on_the_way(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x, const Vec3& x_new) {
-  const Exact::Point_3 ea = to_exact(a), eb = to_exact(b), ec = to_exact(c), from = to_exact(x), to = to_exact(x_new);
-  const CGAL::Exact_rational before = determinant(ea, eb, ec, from);
-  const CGAL::Exact_rational after = determinant(ea, eb, ec, to);
-  const Exact::Point_3 at = from + (to - from) * (before / (before - after));
-  const Exact::Vector_3 da = ea - at, db = eb - at, dc = ec - at;
-  const Exact::Vector_3 normal = CGAL::cross_product(da, db);
-  if (normal == CGAL::NULL_VECTOR) return true;
-  return CGAL::cross_product(da, dc) * normal >= 0 && CGAL::cross_product(dc, db) * normal >= 0;
+  {
+    const CGAL::Interval_nt<false>::Protector rounds_upwards;
+    const CGAL::Uncertain<bool> touches = touches_sector<Bounds>(a, b, c, x, x_new);
+    if (CGAL::is_certain(touches)) return CGAL::get_certain(touches);
+  }
+  return CGAL::get_certain(touches_sector<Exact>(a, b, c, x, x_new));
 }
 
 }  // namespace smopt

@@ -10,12 +10,12 @@
 
 namespace smopt {
 
-/// A spatial index of triangles that move: hashed cubes of one size, each listing the triangles whose boxes reach into it.
+/// A spatial index of triangles that move: cubes of one size, each listing the triangles whose boxes reach into it.
 ///
 /// Entries are only ever added, so that a cube may list a triangle that has left it, never miss one that is there; every query tests the
-/// triangle's present box. Two cubes may share a bucket, which costs time and nothing else. Memory follows the number of triangles, not the
-/// size of the space: about 70 bytes a triangle.
-/// The box is kept in single precision relative to the centre of all points, so that coordinates far from the origin stay sharp.
+/// triangle's present box. Cubes are kept in blocks of 4×4×4, and blocks in a hash table, so that memory follows the surface and not the
+/// size of the space: about 80 bytes a triangle. The box is kept in single precision relative to the centre of all points, so that
+/// coordinates far from the origin stay sharp.
 class TriangleGrid {
  public:
   /// Cost: O(n), for triangles of similar size; a triangle much larger than the cubes costs as many entries as cubes it covers, up to a
@@ -40,14 +40,14 @@ class TriangleGrid {
   /// Takes triangle f out: no query finds it any more.
   void remove(std::uint32_t f) { boxes_[f] = Box{}; }
 
-  /// Calls visit(f) for every triangle whose box overlaps `box`; one that covers several cubes may be visited several times.
+  /// Calls visit(f) once for every triangle whose box overlaps `box`.
   template <class Visit>
   void for_overlapping(const Box& box, const Visit& visit) const {
     const Range range = cell_range(box);
     if (cell_count(range) > static_cast<std::int64_t>(boxes_.size())) return visit_all(box, visit);
-    for (int x = range.low[0]; x <= range.high[0]; ++x)
-      for (int y = range.low[1]; y <= range.high[1]; ++y)
-        for (int z = range.low[2]; z <= range.high[2]; ++z) visit_bucket(bucket_of(x, y, z), box, visit);
+    for (int x = range.low[0] >> 2; x <= range.high[0] >> 2; ++x)
+      for (int y = range.low[1] >> 2; y <= range.high[1] >> 2; ++y)
+        for (int z = range.low[2] >> 2; z <= range.high[2] >> 2; ++z) visit_block(x, y, z, range, box, visit);
     for (const std::uint32_t f : large_)
       if (boxes_[f].overlaps(box)) visit(f);
   }
@@ -65,12 +65,17 @@ class TriangleGrid {
                                (r.high[1] <= high[1]) & (r.high[2] <= high[2]));
     }
   };
-  /// An entry that was added after the build, in a linked list by bucket.
+  /// An entry that was added after the build, in a linked list by cube.
   struct AddedEntry {
     std::uint32_t face;
     std::uint32_t next;
   };
+  struct TableEntry {
+    std::uint64_t key;
+    std::uint32_t block;  // kNone: free
+  };
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  static constexpr std::size_t kCubesPerBlock = 64;
 
   [[nodiscard]] std::int16_t cell_index(float x) const {
     const float scaled = x * cells_per_unit_;
@@ -81,12 +86,20 @@ class TriangleGrid {
     return {{cell_index(box.low[0]), cell_index(box.low[1]), cell_index(box.low[2])},
             {cell_index(box.high[0]), cell_index(box.high[1]), cell_index(box.high[2])}};
   }
-  /// Cubes of one 4×4×4 block lie side by side in memory; blocks are hashed.
-  [[nodiscard]] std::uint32_t bucket_of(int x, int y, int z) const {
-    const std::uint32_t block = static_cast<std::uint32_t>(x >> 2) * 73856093U ^ static_cast<std::uint32_t>(y >> 2) * 19349663U ^
-                                static_cast<std::uint32_t>(z >> 2) * 83492791U;
-    const auto inner = static_cast<std::uint32_t>((x & 3) << 4 | (y & 3) << 2 | (z & 3));
-    return ((block << 6) | inner) & bucket_mask_;
+  static int cell_in_block(int x, int y, int z) { return (x & 3) << 4 | (y & 3) << 2 | (z & 3); }
+  static std::uint64_t block_key(int x, int y, int z) {
+    return static_cast<std::uint64_t>(static_cast<std::uint16_t>(x)) << 32 |
+           static_cast<std::uint64_t>(static_cast<std::uint16_t>(y)) << 16 | static_cast<std::uint64_t>(static_cast<std::uint16_t>(z));
+  }
+  /// Where in the table the search for a key begins: the upper bits of a product with 2⁶⁴/φ (Knuth's multiplicative hashing).
+  [[nodiscard]] std::size_t table_slot(std::uint64_t key) const { return (key * 0x9E3779B97F4A7C15U) >> table_shift_; }
+  /// The number of a block, or kNone when nothing is there. Block coordinates are cube coordinates divided by 4.
+  [[nodiscard]] std::uint32_t find_block(int x, int y, int z) const {
+    const std::uint64_t key = block_key(x, y, z);
+    for (std::size_t slot = table_slot(key);; slot = slot + 1 < table_.size() ? slot + 1 : 0) {
+      if (table_[slot].block == kNone) return kNone;
+      if (table_[slot].key == key) return table_[slot].block;
+    }
   }
   static std::int64_t cell_count(const Range& r) {
     return std::int64_t{r.high[0] - r.low[0] + 1} * (r.high[1] - r.low[1] + 1) * (r.high[2] - r.low[2] + 1);
@@ -97,28 +110,51 @@ class TriangleGrid {
       if (boxes_[f].overlaps(box)) visit(f);
   }
   template <class Visit>
-  void visit_bucket(std::uint32_t bucket, const Box& box, const Visit& visit) const {
-    for (std::uint32_t i = bucket_begin_[bucket]; i < bucket_begin_[bucket + 1]; ++i)
-      if (boxes_[entries_[i]].overlaps(box)) visit(entries_[i]);
-    for (std::uint32_t i = added_head_[bucket]; i != kNone; i = added_[i].next)
-      if (boxes_[added_[i].face].overlaps(box)) visit(added_[i].face);
+  void visit_block(int bx, int by, int bz, const Range& query, const Box& box, const Visit& visit) const {
+    const std::uint32_t block = find_block(bx, by, bz);
+    if (block == kNone) return;
+    const int x_end = std::min<int>(query.high[0], bx * 4 + 3), y_end = std::min<int>(query.high[1], by * 4 + 3),
+              z_end = std::min<int>(query.high[2], bz * 4 + 3);
+    for (int x = std::max<int>(query.low[0], bx * 4); x <= x_end; ++x)
+      for (int y = std::max<int>(query.low[1], by * 4); y <= y_end; ++y)
+        for (int z = std::max<int>(query.low[2], bz * 4); z <= z_end; ++z) visit_cube(block, x, y, z, query, box, visit);
+  }
+  template <class Visit>
+  void visit_cube(std::uint32_t block, int x, int y, int z, const Range& query, const Box& box, const Visit& visit) const {
+    const std::size_t cube = std::size_t{block} * kCubesPerBlock + static_cast<std::size_t>(cell_in_block(x, y, z));
+    // A triangle listed by several cubes of the query is visited in the first of them.
+    const auto is_first = [&](const Range& listed) {
+      return static_cast<bool>((x == std::max(listed.low[0], query.low[0])) & (y == std::max(listed.low[1], query.low[1])) &
+                               (z == std::max(listed.low[2], query.low[2])));
+    };
+    const auto try_face = [&](std::uint32_t f) {
+      if (boxes_[f].overlaps(box) && is_first(ranges_[f])) visit(f);
+    };
+    for (std::uint32_t i = cube_begin_[cube]; i < cube_begin_[cube + 1]; ++i) try_face(entries_[i]);
+    for (std::uint32_t i = added_head_[cube]; i != kNone; i = added_[i].next) try_face(added_[i].face);
   }
 
   void choose_frame(const std::vector<Vec3>& points);
   void choose_cell_size();
-  void sort_into_buckets();
+  void sort_into_cubes();
+  std::uint32_t find_or_add_block(int x, int y, int z);
+  void put_into_table(std::uint64_t key, std::uint32_t block);
+  void grow_table();
+  [[nodiscard]] std::size_t find_or_add_cube(int x, int y, int z);
   void extend(std::uint32_t f, const Range& range);
   void set_apart(std::uint32_t f);
 
   Vec3 origin_ = Vec3::Zero();
   float cells_per_unit_ = 1;
   float half_extent_ = 0;
-  std::uint32_t bucket_mask_ = 0;
-  std::vector<Box> boxes_;                   // per triangle
-  std::vector<Range> ranges_;                // per triangle: the cubes that list it
-  std::vector<std::uint32_t> bucket_begin_;  // per bucket, into entries_
+  int table_shift_ = 0;
+  std::vector<Box> boxes_;                 // per triangle
+  std::vector<Range> ranges_;              // per triangle: the cubes that list it
+  std::vector<TableEntry> table_;          // open addressing, at most half full
+  std::vector<std::uint64_t> block_keys_;  // per block
+  std::vector<std::uint32_t> cube_begin_;  // per cube of each block, into entries_
   std::vector<std::uint32_t> entries_;
-  std::vector<std::uint32_t> added_head_;  // per bucket, into added_
+  std::vector<std::uint32_t> added_head_;  // per cube of each block, into added_
   std::vector<AddedEntry> added_;
   std::vector<std::uint32_t> large_;  // triangles that cover too many cubes: tested by every query
 };

@@ -28,6 +28,15 @@ inline double distance_to_open_segment(const Vec3& p, const Vec3& a, const Vec3&
   return (p - a - (t / length2) * ab).norm();
 }
 
+/// Square of the sine of the smallest angle, 4A²/(product of the squares of the two longer edges); 0 for a degenerate triangle.
+inline double squared_sine_of_smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 p = b - a, q = c - a;
+  const double ab = p.squaredNorm(), ca = q.squaredNorm(), bc = (c - b).squaredNorm();
+  const double shortest = std::min({ab, bc, ca});
+  const double product = ab * bc * ca;
+  return product > 0 ? p.cross(q).squaredNorm() * shortest / product : 0.0;
+}
+
 /// Which triangles count as low quality (Liu et al. 2017, section 0.3: "low edge ratio or containing tiny angles").
 struct QualityThresholds {
   double edge_ratio = 0.1;      ///< shortest/longest edge below this; [0, 1)

@@ -1,6 +1,8 @@
 #include "smopt/improve/smoothing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "smopt/error.h"
@@ -20,7 +22,13 @@ constexpr std::size_t kProgressStride = 16384;
 class Smoother {
  public:
   Smoother(TriangleMesh& mesh, const VertexRings& rings, const SmoothingOptions& options, const ProgressCallback& progress)
-      : mesh_(mesh), rings_(rings), options_(options), progress_(progress), guard_(mesh, rings), is_stuck_(mesh.vertex_count(), 0) {}
+      : mesh_(mesh),
+        rings_(rings),
+        options_(options),
+        progress_(progress),
+        guard_(mesh, rings),
+        is_stuck_(mesh.vertex_count(), 0),
+        bad_squared_sine_(std::pow(std::sin(options.thresholds.min_angle_deg * std::numbers::pi / 180), 2)) {}
 
   SmoothingReport run() {
     Screening screening(mesh_, rings_, options_.thresholds);
@@ -83,7 +91,9 @@ class Smoother {
     guard_.select(v, from + step);
     double beta = 1;
     for (int halving = 0; halving <= options_.halvings; ++halving, beta *= 0.5) {
-      if (!guard_.is_move_ok(from + beta * step)) continue;
+      const Vec3 target = from + beta * step;
+      if (options_.keeps_angles && makes_bad_angle_worse(v, target)) continue;
+      if (!guard_.is_move_ok(target)) continue;
       guard_.apply();
       for (const VertexId w : rings_.vertices(v)) is_stuck_[w] = 0;
       ++round.moves.accepted;
@@ -93,6 +103,23 @@ class Smoother {
     }
     is_stuck_[v] = 1;
     ++round.moves.refused;
+  }
+
+  [[nodiscard]] bool makes_bad_angle_worse(VertexId v, const Vec3& target) const {
+    const double after = squared_sine_in_star(v, target);
+    return after < bad_squared_sine_ && after < squared_sine_in_star(v, mesh_.points[v]);
+  }
+
+  /// Of the smallest angle in the star of v, if v were at `position`.
+  [[nodiscard]] double squared_sine_in_star(VertexId v, const Vec3& position) const {
+    const std::span<const VertexId> ring = rings_.vertices(v);
+    double smallest = 1;
+    VertexId before = ring.back();
+    for (const VertexId w : ring) {
+      smallest = std::min(smallest, squared_sine_of_smallest_angle(position, mesh_.points[before], mesh_.points[w]));
+      before = w;
+    }
+    return smallest;
   }
 
   [[nodiscard]] bool is_negligible(VertexId v, const Vec3& step) const {
@@ -107,6 +134,7 @@ class Smoother {
   const ProgressCallback& progress_;
   MoveGuard guard_;
   std::vector<char> is_stuck_;  // per vertex: refused, and nothing around it has moved since
+  double bad_squared_sine_;     // of the threshold angle
   SmoothingReport report_;
 };
 

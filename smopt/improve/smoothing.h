@@ -18,6 +18,10 @@ struct SmoothingOptions {
   QualityThresholds thresholds;        ///< which triangles are smoothed again; the paper gives no number, these reproduce its figures
   int halvings = 10;                   ///< how often a refused step is halved before the vertex stays; ≥ 0; the paper has no bound
   StepRule step = StepRule::umbrella;  ///< the paper's
+  /// Whether a step is refused (and halved) when it would leave the star with an angle below the threshold and smaller than its smallest
+  /// was. Not in the paper. Without it, repeated steps draw thin necks of the surface out into needles of hundredths of a degree, which
+  /// never leave the active set and which TetGen does not mesh.
+  bool keeps_angles = true;
 };
 
 /// Moves of one round or of all.

@@ -42,6 +42,12 @@ std::vector<MethodOption> smopt_options() {
        "",
        "where a vertex wants to go (umbrella: the paper's)",
        {"umbrella", "volume-preserving", "tangential"}},
+      {"bad-angles",
+       Kind::choice,
+       smoothing.keeps_angles ? "keep" : "ignore",
+       "",
+       "keep: refuse a step that makes an angle below --min-angle worse; ignore: the paper's",
+       {"keep", "ignore"}},
       {"redundant", Kind::choice, "delete", "", "points of valence 3 and 4 on their ring's plane or diagonal", {"delete", "keep"}},
       {"tolerance", Kind::text, "1e-4", "Å", "distance below which a point is redundant; '1e-3rel' is relative to the local edge", {}},
   };
@@ -69,6 +75,7 @@ SmoothingOptions parse_smoothing(const OptionValues& values) {
   options.rounds_per_screening = values.integer("rounds-per-screening", 1);
   options.thresholds = {values.number("edge-ratio", 0), values.number("min-angle", 0)};
   options.halvings = values.integer("halvings", 0);
+  options.keeps_angles = values.text("bad-angles") == "keep";
   options.step = parse_step(values.text("step"));
   return options;
 }

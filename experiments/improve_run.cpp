@@ -1,0 +1,152 @@
+#include "experiments/improve_run.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <oneapi/tbb/global_control.h>
+
+#include <array>
+#include <charconv>
+
+#include "baselines/baselines.h"
+#include "metrics/intersections.h"
+#include "smopt/error.h"
+#include "smopt/io/mesh_io.h"
+#include "smopt/io/sha256.h"
+#include "smopt/version.h"
+
+namespace smopt::experiments {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 7> kStages = {"read", "validity", "cavities", "redundant", "smoothing", "write", "total"};
+
+bool is_stream(const std::filesystem::path& path) {
+  return path == "-";
+}
+
+/// Of a closed manifold without isolated vertices, where 2 E = 3 F.
+long euler_characteristic(const TriangleMesh& mesh) {
+  return static_cast<long>(mesh.vertex_count()) - static_cast<long>(mesh.triangle_count() / 2);
+}
+
+Json mesh_json(const TriangleMesh& mesh, const std::filesystem::path& file) {
+  return {{"file", file.string()},
+          {"vertices", mesh.vertex_count()},
+          {"triangles", mesh.triangle_count()},
+          {"euler_characteristic", euler_characteristic(mesh)},
+          {"sha256", is_stream(file) ? Json(nullptr) : Json(sha256_of_file(file))}};
+}
+
+PreparationReport prepare_file(TriangleMesh& mesh, CavityPolicy cavities, const std::filesystem::path& file) {
+  try {
+    return prepare(mesh, cavities);
+  } catch (const InvalidMesh& error) {
+    throw InvalidMesh(fmt::format("{}: {}", is_stream(file) ? "standard input" : file.string(), error.what()));
+  }
+}
+
+Json number_or_text(const MethodOption& option, const std::string& value) {
+  double number = 0;
+  const bool is_numeric = option.kind == MethodOption::Kind::integer || option.kind == MethodOption::Kind::number;
+  if (!is_numeric || std::from_chars(value.data(), value.data() + value.size(), number).ec != std::errc()) return value;
+  return option.kind == MethodOption::Kind::integer ? Json(static_cast<long>(number)) : Json(number);
+}
+
+Json rounds_json(const std::vector<RoundReport>& rounds) {
+  Json list = Json::array();
+  for (const RoundReport& round : rounds) {
+    list.push_back({{"active", round.active},
+                    {"accepted", round.moves.accepted},
+                    {"shortened", round.moves.shortened},
+                    {"refused", round.moves.refused},
+                    {"longest_move", round.longest_move}});
+  }
+  return list;
+}
+
+}  // namespace
+
+void add_seconds(Json& report, const StageTimes& times) {
+  for (const char* key : {"seconds", "cpu_seconds"}) {
+    report[key] = Json::object();
+    for (const char* stage : kStages) report[key][stage] = 0.0;
+  }
+  for (const auto& [stage, seconds] : times) {
+    report["seconds"][stage] = seconds.wall;
+    report["cpu_seconds"][stage] = seconds.cpu;
+  }
+}
+
+void add_outcome(Json& report, const PreparationReport& preparation, const MethodReport& outcome) {
+  const CavityReport& cavities = preparation.cavities;
+  report["turned"] = {{"whole_mesh", preparation.was_inward}, {"triangles", preparation.turned_triangles}};
+  report["removed"] = {{"cavities", cavities.cavities},
+                       {"islands", cavities.islands},
+                       {"cavity_vertices", cavities.cavity_vertices},
+                       {"outer_components", cavities.outer_components},
+                       {"outer_component_vertices", cavities.outer_component_vertices},
+                       {"isolated_vertices", preparation.isolated_vertices},
+                       {"redundant_valence3", outcome.redundant_valence3},
+                       {"redundant_valence4", outcome.redundant_valence4}};
+  report["rounds"] = outcome.rounds.size();
+  report["moves"] = {{"accepted", outcome.moves.accepted},
+                     {"shortened", outcome.moves.shortened},
+                     {"refused", outcome.moves.refused},
+                     {"stuck", outcome.stuck}};
+  report["stopped_because"] = outcome.stopped_because;
+  report["each_round"] = rounds_json(outcome.rounds);
+}
+
+Json options_json(const Method& method, const OptionValues& values) {
+  Json options = Json::object();
+  for (const MethodOption& option : method.options) options[option.name] = number_or_text(option, values.text(option.name));
+  return options;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& progress) {
+  const Method& method = baselines::all_methods().find(run.method);
+  const OptionValues values(method.options, run.options);
+  const CavityPolicy cavities = run.cavities.value_or(method.default_cavities);
+  if (!is_writable_mesh_format(run.output))
+    throw InvalidOption(fmt::format("{}: not a mesh format that can be written ({})", run.output.string(), mesh_format_names()));
+
+  const Stopwatch total;
+  StageTimes times;
+  TriangleMesh mesh = timed(times, "read", [&] { return read_mesh(run.input); });
+  Json input = mesh_json(mesh, run.input);
+  const PreparationReport preparation = prepare_file(mesh, cavities, run.input);
+  input["euler_characteristic"] = input["euler_characteristic"].get<long>() - static_cast<long>(preparation.isolated_vertices);
+  ImproveRunResult result;
+  if (run.verify) result.pairs_before = metrics::find_intersections(mesh, {0}).count;
+  const MethodReport outcome = method.run(mesh, values, progress);
+  timed(times, "write", [&] { write_mesh(run.output, mesh, {run.digits}); });
+  if (run.verify) result.pairs_after = metrics::find_intersections(is_stream(run.output) ? mesh : read_mesh(run.output), {0}).count;
+
+  Json& report = result.report;
+  report["method"] = method.name;
+  report["options"] = options_json(method, values);
+  report["options"]["cavities"] = to_string(cavities);
+  report["options"]["digits"] = run.digits;
+  report["input"] = input;
+  report["output"] = mesh_json(mesh, run.output);
+  add_outcome(report, preparation, outcome);
+  times.insert(times.end(), preparation.seconds.begin(), preparation.seconds.end());
+  times.insert(times.end(), outcome.seconds.begin(), outcome.seconds.end());
+  times.emplace_back("total", total.elapsed());
+  add_seconds(report, times);
+  if (run.verify) report["verified"] = {{"pairs_before", *result.pairs_before}, {"pairs_after", *result.pairs_after}};
+  report["peak_memory_mb"] = peak_memory_mb();
+  report["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  report["version"] = version();
+  return result;
+}
+
+}  // namespace smopt::experiments

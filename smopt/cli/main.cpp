@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <oneapi/tbb/global_control.h>
+
+#include <cstdio>
+#include <exception>
+#include <optional>
+
+#include "smopt/cli/command.h"
+#include "smopt/cli/interrupt.h"
+#include "smopt/error.h"
+#include "smopt/version.h"
+
+namespace smopt::cli {
+namespace {
+
+constexpr const char* kDescription =
+    "SMOPT makes triangle meshes of molecular surfaces fit for simulation without ever letting two triangles intersect.\n"
+    "\n"
+    "  smopt generate molecule.pqr -o surface.off      the molecule's Gaussian surface\n"
+    "  smopt improve surface.off -o improved.off       the same surface, fit for simulation\n"
+    "  smopt measure surface.off improved.off          what has become better\n"
+    "  smopt tetrahedralize improved.off -o mesh.vtu   a volume mesh by TetGen";
+
+int report_error(const char* what, ExitCode code) {
+  fmt::print(stderr, "smopt: {}\n", what);
+  return static_cast<int>(code);
+}
+
+void add_commands(CLI::App& app, Context& context) {
+  add_generate(app, context);
+  add_improve(app, context);
+  add_methods(app, context);
+  add_measure(app, context);
+  add_tetrahedralize(app, context);
+  add_convert(app, context);
+}
+
+/// Parses the command line and runs the command, which is a callback of its subcommand.
+int run(int argc, char** argv) {
+  Context context;
+  context.argc = argc;
+  context.argv = argv;
+  CLI::App app(kDescription, "smopt");
+  app.set_version_flag("--version", fmt::format("smopt {}", version()));
+  app.require_subcommand(1);
+  app.fallthrough();
+  std::optional<tbb::global_control> limit;
+  app.add_option_function<int>(
+         "--threads",
+         [&](const int& threads) {
+           context.threads = threads;
+           limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+         },
+         "threads to use (default: all cores); the result does not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->trigger_on_parse();
+  app.add_flag("--quiet", context.is_quiet, "no progress bar, no summary");
+  add_commands(app, context);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::wrong_usage);
+  }
+  return static_cast<int>(context.exit_code);
+}
+
+}  // namespace
+}  // namespace smopt::cli
+
+int main(int argc, char** argv) {
+  using namespace smopt::cli;
+  install_interrupt_handler();
+  try {
+    return run(argc, argv);
+  } catch (const smopt::InvalidOption& error) {
+    return report_error(error.what(), ExitCode::wrong_usage);
+  } catch (const smopt::InvalidInput& error) {
+    return report_error(error.what(), ExitCode::bad_input);
+  } catch (const smopt::Cancelled&) {
+    return report_error("interrupted", ExitCode::interrupted);
+  } catch (const std::bad_alloc&) {
+    return report_error("out of memory", ExitCode::internal_error);
+  } catch (const std::exception& error) {
+    return report_error(fmt::format("internal error: {}", error.what()).c_str(), ExitCode::internal_error);
+  }
+}

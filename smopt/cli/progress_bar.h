@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "smopt/cli/interrupt.h"
+#include "smopt/progress.h"
+
+namespace smopt::cli {
+
+/// A bar with the time left on standard error, for stages that take longer than a second; nothing when that is not a terminal. Its callback
+/// also makes the stage stop at Ctrl-C.
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool is_quiet);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  [[nodiscard]] ProgressCallback callback();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void show(std::string_view stage, double fraction);
+  void clear();
+
+  CancellableSection cancellable_;
+  bool is_shown_;
+  bool has_line_ = false;
+  std::string stage_;
+  Clock::time_point stage_start_;
+  Clock::time_point last_shown_;
+};
+
+}  // namespace smopt::cli
