@@ -40,6 +40,28 @@ bool coplanar_segment_meets_triangle(int axis, const Vec3& a, const Vec3& b, con
          coplanar_segments_meet(axis, a, b, t[1], t[2]) || coplanar_segments_meet(axis, a, b, t[2], t[0]);
 }
 
+/// Whether u and v lie in the same direction from the apex (neither at it).
+bool are_on_one_ray(const Vec3& apex, const Vec3& u, const Vec3& v) {
+  return are_collinear(apex, u, v) && !is_between(apex, u, v);
+}
+
+/// Whether the segment from t[0] to p has more than t[0] in common with the triangle.
+bool segment_enters_triangle(const Vec3& p, const TrianglePoints& t) {
+  const int axis = projection_axis(t[0], t[1], t[2]);
+  if (axis < 0) return are_on_one_ray(t[0], p, t[1]) || are_on_one_ray(t[0], p, t[2]);
+  if (p == t[0] || orient3d(t[0], t[1], t[2], p) != 0) return false;
+  const int side = orient2d_along(axis, t[0], t[1], t[2]);
+  return orient2d_along(axis, t[0], t[1], p) * side >= 0 && orient2d_along(axis, t[0], p, t[2]) * side >= 0;
+}
+
+/// Two collinear triangles with the shared edge p[0]p[1] = q[0]q[1]: both go on beyond the same end of it.
+bool collinear_triangles_meet_beyond_edge(const TrianglePoints& p, const TrianglePoints& q) {
+  const auto go_on_beyond = [&](const Vec3& end, const Vec3& other) {
+    return is_between(end, other, p[2]) && is_between(end, other, q[2]) && are_on_one_ray(end, p[2], q[2]);
+  };
+  return go_on_beyond(p[0], p[1]) || go_on_beyond(p[1], p[0]);
+}
+
 }  // namespace
 
 TrianglePoints starting_at(const TrianglePoints& t, int first) {
@@ -77,13 +99,17 @@ bool triangles_meet(const TrianglePoints& p, const TrianglePoints& q) {
 }
 
 bool triangles_meet_beyond_vertex(const TrianglePoints& p, const TrianglePoints& q) {
-  return segment_meets_triangle(p[1], p[2], q) || segment_meets_triangle(q[1], q[2], p);
+  if (!segment_meets_triangle(p[1], p[2], q) && !segment_meets_triangle(q[1], q[2], p)) return false;
+  // The opposite side of a collinear triangle may hold the shared corner itself.
+  if (are_collinear(p[0], p[1], p[2])) return segment_enters_triangle(p[1], q) || segment_enters_triangle(p[2], q);
+  if (are_collinear(q[0], q[1], q[2])) return segment_enters_triangle(q[1], p) || segment_enters_triangle(q[2], p);
+  return true;
 }
 
 bool triangles_meet_beyond_edge(const TrianglePoints& p, const TrianglePoints& q) {
   if (orient3d(p[0], p[1], p[2], q[2]) != 0) return false;
   const int axis = projection_axis(p[0], p[1], p[2]);
-  if (axis < 0) return false;  // a collinear triangle adds nothing to the shared edge
+  if (axis < 0) return are_collinear(q[0], q[1], q[2]) && collinear_triangles_meet_beyond_edge(p, q);
   return orient2d_along(axis, p[0], p[1], p[2]) == orient2d_along(axis, p[0], p[1], q[2]);
 }
 
