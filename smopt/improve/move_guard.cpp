@@ -29,12 +29,13 @@ void MoveGuard::gather_candidates() {
   has_candidates_ = true;
   separation_.set_star(ring_points_);
   candidates_.clear();
-  Vec3 low = (reach_ - position_).cwiseMin(0.0), high = (reach_ - position_).cwiseMax(0.0);
-  for (const Vec3& p : ring_points_) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+  // From the coordinates themselves: sums of differences may be off by a unit in the last place.
+  Vec3 low = reach_.cwiseMin(position_), high = reach_.cwiseMax(position_);
+  for (const VertexId w : ring_) {
+    low = low.cwiseMin(mesh_.points[w]);
+    high = high.cwiseMax(mesh_.points[w]);
   }
-  grid_.for_overlapping(grid_.box_of(position_ + low, position_ + high), [&](FaceId f) {
+  grid_.for_overlapping(grid_.box_of(low, high), [&](FaceId f) {
     const Triangle& t = mesh_.triangles[f];
     if (t[0] == vertex_ || t[1] == vertex_ || t[2] == vertex_) return;
     Candidate candidate{f, {}, {}};
@@ -70,9 +71,10 @@ void MoveGuard::prepare_target(const Vec3& target) {
   displacement_ = target - position_;
   normals_.clear();
   double longest2 = 0;
-  Vec3 spoke = ring_points_.front() - displacement_;
+  // Not from `ring_points_`: where the vertex comes from far away, their rounding is above the margin.
+  Vec3 spoke = mesh_.points[ring_.front()] - target;
   for (std::size_t i = 0; i < ring_.size(); ++i) {
-    const Vec3 next_spoke = ring_points_[next(i)] - displacement_;
+    const Vec3 next_spoke = mesh_.points[ring_[next(i)]] - target;
     normals_.push_back(spoke.cross(next_spoke));
     longest2 = std::max(longest2, spoke.squaredNorm());
     spoke = next_spoke;
