@@ -12,6 +12,7 @@
 #include "metrics/intersections.h"
 #include "smopt/error.h"
 #include "smopt/io/mesh_io.h"
+#include "smopt/io/off.h"
 #include "smopt/io/sha256.h"
 #include "smopt/version.h"
 
@@ -45,6 +46,12 @@ PreparationReport prepare_file(TriangleMesh& mesh, CavityPolicy cavities, const 
   } catch (const InvalidMesh& error) {
     throw InvalidMesh(fmt::format("{}: {}", is_stream(file) ? "standard input" : file.string(), error.what()));
   }
+}
+
+/// The mesh as whoever reads the output will see it.
+TriangleMesh read_back(const TriangleMesh& mesh, const ImproveRun& run) {
+  if (!is_stream(run.output)) return read_mesh(run.output);
+  return parse_off(format_off(mesh, {run.digits}), run.output.string());
 }
 
 Json number_or_text(const MethodOption& option, const std::string& value) {
@@ -127,8 +134,9 @@ ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& 
   ImproveRunResult result;
   if (run.verify) result.pairs_before = metrics::find_intersections(mesh, {0}).count;
   const MethodReport outcome = method.run(mesh, values, progress);
+  report_progress(progress, "write", 0);  // an interrupt is still answered here
   timed(times, "write", [&] { write_mesh(run.output, mesh, {run.digits}); });
-  if (run.verify) result.pairs_after = metrics::find_intersections(is_stream(run.output) ? mesh : read_mesh(run.output), {0}).count;
+  if (run.verify) result.pairs_after = metrics::find_intersections(read_back(mesh, run), {0}).count;
 
   Json& report = result.report;
   report["method"] = method.name;

@@ -27,6 +27,9 @@ struct Context {
 /// \throws InvalidOption unless the name's ending is that of a mesh format that can be written: told before any work is done.
 void require_writable_mesh(const std::string& file);
 
+/// \throws InvalidInput when no file of that name can be written where it should be: told before any work is done.
+void require_writable_place(const std::string& file);
+
 /// Each adds its subcommand to the program.
 void add_generate(CLI::App& app, Context& context);
 void add_improve(CLI::App& app, Context& context);

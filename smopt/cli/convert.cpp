@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "smopt/cli/command.h"
+#include "smopt/cli/interrupt.h"
 #include "smopt/io/mesh_io.h"
 
 namespace smopt::cli {
@@ -24,7 +25,9 @@ void add_convert(CLI::App& app, Context& /*context*/) {
       ->check(CLI::Range(1, 17));
   command->callback([arguments] {
     require_writable_mesh(arguments->output);
-    write_mesh(arguments->output, read_mesh(arguments->input), {arguments->digits});
+    const TriangleMesh mesh = read_mesh(arguments->input);
+    const CancellableSection section;
+    write_mesh(arguments->output, mesh, {arguments->digits});
   });
 }
 

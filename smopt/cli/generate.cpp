@@ -23,6 +23,7 @@ void run(const Arguments& arguments, const Context& context) {
   const Stopwatch stopwatch;
   ProgressBar bar(context.is_quiet);
   require_writable_mesh(arguments.output);
+  require_writable_place(arguments.output);
   GaussianSurfaceReport report;
   const TriangleMesh mesh = gaussian_surface(read_molecule(arguments.molecule), arguments.surface, &report, bar.callback());
   write_mesh(arguments.output, mesh, {arguments.digits});

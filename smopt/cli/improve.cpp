@@ -63,7 +63,17 @@ void print_summary(const nlohmann::ordered_json& report) {
              report["seconds"]["total"].get<double>());
 }
 
+/// What would be found out only after the work.
+void require_outputs(const Arguments& arguments) {
+  const std::string output = arguments.run.output.string();
+  if (output == "-" && (arguments.is_json || arguments.report == "-"))
+    throw InvalidOption("the mesh and the report cannot both go to standard output");
+  require_writable_place(output);
+  if (!arguments.report.empty()) require_writable_place(arguments.report);
+}
+
 void run(Arguments& arguments, Context& context) {
+  require_outputs(arguments);
   if (!arguments.cavities.empty()) arguments.run.cavities = parse_cavity_policy(arguments.cavities);
   if (!context.is_quiet) warn_of_rounding(arguments.run);
   ProgressBar bar(context.is_quiet);

@@ -2,9 +2,11 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <system_error>
 
 #include "smopt/cli/command.h"
 #include "smopt/cli/interrupt.h"
@@ -36,6 +38,20 @@ void add_commands(CLI::App& app, Context& context) {
   add_convert(app, context);
 }
 
+/// Prints help or version where they were asked for, otherwise what is wrong with the command line; the exit code.
+int answer(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = app.remaining();
+  const bool has_no_command = app.get_subcommands().empty();
+  if (app.exit(error) == 0) return 0;
+  if (has_no_command && !unknown.empty()) fmt::print(stderr, "'{}' is neither a command nor an option\n", unknown.front());
+  return static_cast<int>(ExitCode::wrong_usage);
+}
+
+/// What was printed must have arrived: a full disk is not a success.
+void flush_standard_output() {
+  if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");
+}
+
 /// Parses the command line and runs the command, which is a callback of its subcommand.
 int run(int argc, char** argv) {
   Context context;
@@ -60,8 +76,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::wrong_usage);
+    return answer(app, error);
   }
+  flush_standard_output();
   return static_cast<int>(context.exit_code);
 }
 
@@ -79,6 +96,8 @@ int main(int argc, char** argv) {
     return report_error(error.what(), ExitCode::bad_input);
   } catch (const smopt::Cancelled&) {
     return report_error("interrupted", ExitCode::interrupted);
+  } catch (const std::system_error& error) {
+    return report_error(error.what(), ExitCode::bad_input);
   } catch (const std::bad_alloc&) {
     return report_error("out of memory", ExitCode::internal_error);
   } catch (const std::exception& error) {

@@ -32,6 +32,7 @@ ProgressBar::~ProgressBar() {
 
 ProgressCallback ProgressBar::callback() {
   return [this](std::string_view stage, double fraction) {
+    if (!cancellable_) cancellable_.emplace();
     if (is_shown_) show(stage, fraction);
     return !is_interrupted();
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,7 +11,7 @@
 namespace smopt::cli {
 
 /// A bar with the time left on standard error, for stages that take longer than a second; nothing when that is not a terminal. Its callback
-/// also makes the stage stop at Ctrl-C.
+/// also makes the stage stop at Ctrl-C; until its first call Ctrl-C ends the program at once, as it may be waiting for input.
 class ProgressBar {
  public:
   explicit ProgressBar(bool is_quiet);
@@ -26,7 +27,7 @@ class ProgressBar {
   void show(std::string_view stage, double fraction);
   void clear();
 
-  CancellableSection cancellable_;
+  std::optional<CancellableSection> cancellable_;
   bool is_shown_;
   bool has_line_ = false;
   std::string stage_;

@@ -30,10 +30,13 @@ void print(const metrics::Tetrahedralization& result) {
 void run(const Arguments& arguments, Context& context) {
   if (!arguments.output.empty() && !metrics::is_tet_mesh_format(arguments.output))
     throw InvalidOption(fmt::format("{}: a volume mesh is written as .vtu, .msh, .node or .ele", arguments.output));
+  if (!arguments.output.empty()) require_writable_place(arguments.output);
   metrics::TetrahedralizeOptions options = arguments.options;
   ProgressBar bar(context.is_quiet);
   options.progress = bar.callback();
-  const metrics::Tetrahedralization result = metrics::tetrahedralize(read_mesh(arguments.mesh), options);
+  const TriangleMesh mesh = read_mesh(arguments.mesh);
+  const CancellableSection section;
+  const metrics::Tetrahedralization result = metrics::tetrahedralize(mesh, options);
   if (result.success && !arguments.output.empty()) metrics::write_tet_mesh(arguments.output, result.mesh);
   if (arguments.is_json)
     fmt::print("{}\n", metrics::to_json(result).dump(2));
@@ -62,6 +65,7 @@ void add_tetrahedralize(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--time-limit", arguments->options.time_limit_seconds, "seconds after which TetGen is ended")->capture_default_str();
   command->add_option("--max-memory", arguments->options.memory_limit_mb, "address space of TetGen, MB; 0: no limit")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_flag("--json", arguments->is_json, "as JSON");
   command->callback([arguments, &context] { run(*arguments, context); });
