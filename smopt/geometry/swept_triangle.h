@@ -22,7 +22,8 @@ struct SharedCorners {
 /// Whether a triangle meets the swept tetrahedron elsewhere than in the corners, or the edge ab, that they share. Contact counts.
 ///
 /// The tetrahedron's face (a, b, from) is left out: the triangle is known not to meet it beyond what they share (or already does, and then
-/// the pair is not new). Decided exactly. Cost: some dozens of orient3d.
+/// the pair is not new). Decided exactly, but that contact in a shared corner may count where a, b and the moving corner are collinear at
+/// some moment: such moves are refused anyway. Cost: some dozens of orient3d.
 bool meets_sweep(const TrianglePoints& triangle, const SharedCorners& shared, const SweptTriangle& sweep);
 
 }  // namespace smopt

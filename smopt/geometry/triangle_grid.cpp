@@ -111,7 +111,7 @@ void TriangleGrid::sort_into_cubes() {
 
 void TriangleGrid::set_apart(std::uint32_t f) {
   large_.push_back(f);
-  ranges_[f] = {{-32768, -32768, -32768}, {32767, 32767, 32767}};  // contains every range: never extended again
+  ranges_[f] = {{kApart, kApart, kApart}, {32767, 32767, 32767}};  // contains every range: never extended again
 }
 
 void TriangleGrid::extend(std::uint32_t f, const Range& range) {

@@ -76,6 +76,8 @@ class TriangleGrid {
   };
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   static constexpr std::size_t kCubesPerBlock = 64;
+  /// The lower end of the range of a triangle that is kept apart: below every cube.
+  static constexpr std::int16_t kApart = -32768;
 
   [[nodiscard]] std::int16_t cell_index(float x) const {
     const float scaled = x * cells_per_unit_;
@@ -122,10 +124,10 @@ class TriangleGrid {
   template <class Visit>
   void visit_cube(std::uint32_t block, int x, int y, int z, const Range& query, const Box& box, const Visit& visit) const {
     const std::size_t cube = std::size_t{block} * kCubesPerBlock + static_cast<std::size_t>(cell_in_block(x, y, z));
-    // A triangle listed by several cubes of the query is visited in the first of them.
+    // A triangle listed by several cubes of the query is visited in the first of them; one that was set apart since, not here.
     const auto is_first = [&](const Range& listed) {
       return static_cast<bool>((x == std::max(listed.low[0], query.low[0])) & (y == std::max(listed.low[1], query.low[1])) &
-                               (z == std::max(listed.low[2], query.low[2])));
+                               (z == std::max(listed.low[2], query.low[2])) & (listed.low[0] != kApart));
     };
     const auto try_face = [&](std::uint32_t f) {
       if (boxes_[f].overlaps(box) && is_first(ranges_[f])) visit(f);
