@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "smopt/error.h"
 
@@ -22,9 +23,28 @@ bool parse_whole(std::string_view text, Number& value) {
 template <class Number>
 Number parse_option(const std::string& name, const std::string& text, Number at_least, std::string_view kind) {
   Number value{};
-  if (!parse_whole(text, value) || !(value >= at_least) || !std::isfinite(static_cast<double>(value)))
-    throw InvalidOption(fmt::format("--{}: expected {} of at least {}, got '{}'", name, kind, at_least, text));
+  if (!parse_whole(text, value) || !std::isfinite(static_cast<double>(value)))
+    throw InvalidOption(fmt::format("--{}: expected {}, got '{}'", name, kind, text));
+  if (!(value >= at_least)) throw InvalidOption(fmt::format("--{}: expected {} of at least {}, got '{}'", name, kind, at_least, text));
   return value;
+}
+
+/// Whether the text is a value of the option's kind, whatever its range. \throws InvalidOption naming the option when it is not.
+void require_kind(const MethodOption& option, const std::string& text) {
+  switch (option.kind) {
+    case MethodOption::Kind::integer:
+      parse_option(option.name, text, std::numeric_limits<int>::lowest(), "a whole number");
+      break;
+    case MethodOption::Kind::number:
+      parse_option(option.name, text, std::numeric_limits<double>::lowest(), "a number");
+      break;
+    case MethodOption::Kind::choice:
+      if (std::find(option.choices.begin(), option.choices.end(), text) == option.choices.end())
+        throw InvalidOption(fmt::format("--{}: '{}' is none of {}", option.name, text, fmt::join(option.choices, ", ")));
+      break;
+    case MethodOption::Kind::text:
+      break;
+  }
 }
 
 constexpr std::array<std::pair<std::string_view, CavityPolicy>, 3> kCavityPolicies = {
@@ -37,9 +57,7 @@ OptionValues::OptionValues(const std::vector<MethodOption>& options, const std::
   for (const auto& [name, value] : given) {
     const auto option = std::find_if(options.begin(), options.end(), [&](const MethodOption& o) { return o.name == name; });
     if (option == options.end()) throw InvalidOption(fmt::format("--{} is not an option of this method", name));
-    if (option->kind == MethodOption::Kind::choice &&
-        std::find(option->choices.begin(), option->choices.end(), value) == option->choices.end())
-      throw InvalidOption(fmt::format("--{}: '{}' is none of {}", name, value, fmt::join(option->choices, ", ")));
+    require_kind(*option, value);
     values_[name] = value;
   }
 }

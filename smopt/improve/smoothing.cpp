@@ -1,5 +1,7 @@
 #include "smopt/improve/smoothing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -138,10 +140,22 @@ class Smoother {
   SmoothingReport report_;
 };
 
+void require_valid(const SmoothingOptions& options) {
+  const auto& [edge_ratio, min_angle_deg] = options.thresholds;
+  if (options.rounds < 0) throw InvalidOption(fmt::format("rounds: expected at least 0, got {}", options.rounds));
+  if (options.rounds_per_screening < 1)
+    throw InvalidOption(fmt::format("rounds-per-screening: expected at least 1, got {}", options.rounds_per_screening));
+  if (options.halvings < 0) throw InvalidOption(fmt::format("halvings: expected at least 0, got {}", options.halvings));
+  if (!(edge_ratio >= 0 && edge_ratio < 1)) throw InvalidOption(fmt::format("edge-ratio: expected a number in [0, 1), got {}", edge_ratio));
+  if (!(min_angle_deg >= 0 && min_angle_deg < 60))
+    throw InvalidOption(fmt::format("min-angle: expected a number in [0, 60), got {}", min_angle_deg));
+}
+
 }  // namespace
 
 SmoothingReport smooth(TriangleMesh& mesh, const SmoothingOptions& options, const ProgressCallback& progress) {
-  if (options.rounds <= 0) {
+  require_valid(options);
+  if (options.rounds == 0) {
     SmoothingReport report;
     report.stopped_because = "rounds";
     return report;

@@ -51,8 +51,9 @@ struct SmoothingReport {
 /// low-quality triangles and their neighbours, which are chosen anew every few sweeps. The step starts whole and is halved while
 /// `MoveGuard` refuses the move. Vertices are visited in ascending order and moved at once (Gauss–Seidel). A vertex that is refused leaves
 /// the active set until something around it moves. Connectivity does not change; no pair of triangles intersects afterwards that did not
-/// before. \param mesh  positions in Å, changed in place. \pre mesh is a closed, oriented manifold (see `check_validity`). Cost: about a
-/// microsecond a move, after an O(n) build of the spatial index.
+/// before. \param mesh  positions in Å, changed in place. \pre mesh is a closed, oriented manifold (see `check_validity`).
+/// \throws InvalidOption for an option out of its range; InvalidMesh when the mesh has no rings; Cancelled when `progress` asks for it.
+/// Cost: about a microsecond a move, after an O(n) build of the spatial index.
 SmoothingReport smooth(TriangleMesh& mesh, const SmoothingOptions& options, const ProgressCallback& progress = {});
 
 }  // namespace smopt

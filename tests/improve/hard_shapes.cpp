@@ -1,8 +1,13 @@
 #include "tests/improve/hard_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
+
+#include "smopt/surface/gaussian_surface.h"
+#include "tests/support/shapes.h"
 
 namespace smopt::testing {
 namespace {
@@ -81,6 +86,65 @@ TriangleMesh plate(int n, double thickness) {
 TriangleMesh spiky(TriangleMesh mesh, std::size_t every, double factor) {
   for (std::size_t v = 0; v < mesh.points.size(); v += every) mesh.points[v] *= factor;
   return mesh;
+}
+
+TriangleMesh linked_rings() {
+  const TriangleMesh ring = torus(1, 0.25, 24, 10);
+  return joined(ring, translated(rotated(ring, {1, 0, 0}, 1.5), {1, 0, 0}));
+}
+
+TriangleMesh knotted_tube() {
+  constexpr int kAlong = 100, kAround = 6;
+  TriangleMesh mesh = torus(1, 0.3, kAlong, kAround);
+  const auto knot = [](double u) {
+    return Vec3(std::sin(u) + 2 * std::sin(2 * u), std::cos(u) - 2 * std::cos(2 * u), -1.5 * std::sin(3 * u));
+  };
+  for (int i = 0; i < kAlong; ++i) {
+    const double u = 2 * std::numbers::pi * i / kAlong;
+    const Vec3 tangent = (knot(u + 1e-4) - knot(u - 1e-4)).normalized(), side = tangent.cross(knot(u)).normalized();
+    for (int j = 0; j < kAround; ++j) {
+      const double v = 2 * std::numbers::pi * j / kAround;
+      mesh.points[static_cast<std::size_t>(i * kAround + j)] = knot(u) + 0.2 * (std::cos(v) * side + std::sin(v) * side.cross(tangent));
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh needles_with_a_speck_in_one() {
+  const TriangleMesh sphere = spiky(icosphere(2), 40, 5);
+  return joined(sphere, icosphere(0, 0.01, 0.6 * sphere.points[0]));
+}
+
+TriangleMesh dents_with_things_in_one() {
+  const TriangleMesh sphere = spiky(icosphere(2), 40, 0.1);
+  const Vec3 dent = sphere.points[0].normalized();
+  const TriangleMesh sheet = translated(scaled(translated(plate(2, 0.001), {-1, -1, 0}), 0.02), 0.7 * dent);
+  return joined(joined(sphere, icosphere(0, 0.01, 0.6 * dent)), sheet);
+}
+
+TriangleMesh plates_on_a_noisy_sheet(double gap, std::uint32_t seed) {
+  constexpr int kSquares = 8;
+  const TriangleMesh lower = noisy(plate(kSquares, 0.6), 0.2, seed);
+  TriangleMesh upper = lower;
+  const std::size_t side_points = lower.points.size() / 2;
+  for (std::size_t i = 0; i < side_points; ++i) {
+    upper.points[i] = lower.points[i] + Vec3(0, 0, 1);
+    upper.points[side_points + i] = lower.points[i] + Vec3(0, 0, gap);
+  }
+  return joined(lower, upper);
+}
+
+TriangleMesh random_molecule_surface(std::size_t atoms, std::uint32_t seed) {
+  constexpr double kAtomsPerVolume = 0.012;  // per Å³: loose enough for necks and handles, dense enough for cavities
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> coordinate(0, std::cbrt(static_cast<double>(atoms) / kAtomsPerVolume)), radius(1.2, 2);
+  Molecule molecule;
+  for (std::size_t i = 0; i < atoms; ++i) {
+    molecule.centers.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+    molecule.charges.push_back(0);
+    molecule.radii.push_back(radius(random));
+  }
+  return gaussian_surface(molecule, {});
 }
 
 TriangleMesh with_points_in_faces(const TriangleMesh& mesh, std::uint32_t seed) {

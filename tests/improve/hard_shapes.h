@@ -18,6 +18,24 @@ TriangleMesh plate(int n, double thickness);
 /// Every `every`th point moved away from the origin by the factor: needles where it is large, dents reaching for the middle where small.
 TriangleMesh spiky(TriangleMesh mesh, std::size_t every, double factor);
 
+/// Two rings like links of a chain: they cannot shrink to nothing without passing through each other.
+TriangleMesh linked_rings();
+
+/// A thin tube along a trefoil knot, 100 × 6 vertices: it shrinks onto itself.
+TriangleMesh knotted_tube();
+
+/// A sphere of radius 1 with a few needles of length 5, and a speck inside the first of them, at 0.6 of its length.
+TriangleMesh needles_with_a_speck_in_one();
+
+/// A sphere of radius 1 with a few dents down to 0.1, and a speck and a thin plate floating in the first of them.
+TriangleMesh dents_with_things_in_one();
+
+/// Two plates of which the lower one's top and the upper one's bottom are the same noisy sheet, `gap` apart.
+TriangleMesh plates_on_a_noisy_sheet(double gap, std::uint32_t seed);
+
+/// The Gaussian surface of randomly placed atoms: necks, handles, cavities and several components.
+TriangleMesh random_molecule_surface(std::size_t atoms, std::uint32_t seed);
+
 /// One new vertex of valence 3 in every face, at random places well inside.
 TriangleMesh with_points_in_faces(const TriangleMesh& mesh, std::uint32_t seed);
 
