@@ -36,6 +36,8 @@ void add_commands(CLI::App& app, Context& context) {
   add_measure(app, context);
   add_tetrahedralize(app, context);
   add_convert(app, context);
+  add_reproduce(app, context);
+  add_report(app, context);
 }
 
 /// Prints help or version where they were asked for, otherwise what is wrong with the command line; the exit code.

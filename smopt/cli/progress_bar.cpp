@@ -38,6 +38,12 @@ ProgressCallback ProgressBar::callback() {
   };
 }
 
+void ProgressBar::print_line(std::string_view line) {
+  clear();
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
 void ProgressBar::show(std::string_view stage, double fraction) {
   const Clock::time_point now = Clock::now();
   if (stage != stage_) {

@@ -21,6 +21,9 @@ class ProgressBar {
 
   [[nodiscard]] ProgressCallback callback();
 
+  /// Prints a line on standard output without tearing the bar.
+  void print_line(std::string_view line);
+
  private:
   using Clock = std::chrono::steady_clock;
 

@@ -1,0 +1,119 @@
+#include "experiments/case_run.h"
+
+#include <oneapi/tbb/task_arena.h>
+
+#include "experiments/improve_run.h"
+#include "experiments/machine.h"
+#include "metrics/measure.h"
+#include "metrics/measurement_json.h"
+#include "metrics/tetgen/tetrahedralize.h"
+#include "smopt/error.h"
+#include "smopt/improve/prepare.h"
+#include "smopt/io/off.h"
+#include "smopt/io/sha256.h"
+
+namespace smopt::experiments {
+namespace {
+
+/// Table 2 counts seconds on one processor, as the paper's does.
+constexpr int kTimedThreads = 1;
+
+/// One run of a method, from the initial mesh to the improved one.
+struct MethodRun {
+  TriangleMesh mesh;
+  PreparationReport preparation;
+  MethodReport report;
+  StageTimes times;
+};
+
+MethodRun run_once(const Method& method, const OptionValues& options, const TriangleMesh& initial, const ProgressCallback& progress) {
+  MethodRun run;
+  run.mesh = initial;
+  const Stopwatch total;
+  run.preparation = prepare(run.mesh, CavityPolicy::delete_cavities);
+  run.report = method.run(run.mesh, options, progress);
+  run.times = run.preparation.seconds;
+  run.times.insert(run.times.end(), run.report.seconds.begin(), run.report.seconds.end());
+  run.times.emplace_back("total", total.elapsed());
+  return run;
+}
+
+Json mesh_json(const JudgedMesh& judged) {
+  return {{"vertices", judged.mesh.vertex_count()},
+          {"triangles", judged.mesh.triangle_count()},
+          {"euler_characteristic", judged.metrics.at("euler_characteristic")},
+          {"sha256", judged.sha256}};
+}
+
+Json tetgen_json(const TriangleMesh& mesh, const std::string& switches, const ProgressCallback& progress) {
+  metrics::TetrahedralizeOptions options;
+  options.switches = switches;
+  options.progress = progress;
+  try {
+    return metrics::to_json(metrics::tetrahedralize(mesh, options));
+  } catch (const InvalidInput& error) {
+    return {{"status", "failed"}, {"reason", error.what()}, {"switches", switches}};
+  }
+}
+
+/// What is asked of the finished mesh, whichever case it is of.
+void add_simulations(Json& record, const TriangleMesh& mesh, const ProgressCallback& progress) {
+  record["tetgen"] = Json::object();
+  for (const char* switches : {"p", "pY"}) record["tetgen"][switches] = tetgen_json(mesh, switches, progress);
+  record["solvation"] = {{"status", "not computed"}};
+}
+
+void add_meshes(Json& record, const JudgedMesh& before, const JudgedMesh& after) {
+  record["input"] = mesh_json(before);
+  record["output"] = mesh_json(after);
+  record["metrics"] = {{"before", before.metrics}, {"after", after.metrics}};
+}
+
+}  // namespace
+
+JudgedMesh judge(TriangleMesh mesh) {
+  JudgedMesh judged{std::move(mesh), {}, {}};
+  judged.metrics = metrics::to_json(metrics::measure(judged.mesh));
+  judged.sha256 = sha256_hex(format_off(judged.mesh, {}));
+  return judged;
+}
+
+JudgedMesh prepare_input(const TriangleMesh& initial) {
+  TriangleMesh mesh = initial;
+  prepare(mesh, CavityPolicy::delete_cavities);
+  return judge(std::move(mesh));
+}
+
+void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface, const ProgressCallback& progress) {
+  record["options"] = Json::object();
+  record["threads"] = kTimedThreads;
+  add_repeats(record, surface.repeats);
+  record["peak_memory_mb"] = surface.peak_memory_mb;
+  add_meshes(record, initial, initial);
+  add_simulations(record, initial.mesh, progress);
+}
+
+TriangleMesh run_method_case(Json& record, const Method& method, const TriangleMesh& initial, const JudgedMesh& input, int repeats,
+                             const ProgressCallback& progress) {
+  const OptionValues options(method.options, {});
+  record["options"] = options_json(method, options);
+  record["options"]["cavities"] = to_string(CavityPolicy::delete_cavities);
+  record["threads"] = kTimedThreads;
+  tbb::task_arena one_thread(kTimedThreads);
+  std::vector<StageTimes> times;
+  MethodRun run;
+  reset_peak_memory();
+  for (int i = 0; i < repeats; ++i) {
+    run = one_thread.execute([&] { return run_once(method, options, initial, progress); });
+    times.push_back(run.times);
+  }
+  add_repeats(record, times);
+  record["peak_memory_mb"] = peak_memory_mb();
+  add_outcome(record, run.preparation, run.report);
+  JudgedMesh output = judge(std::move(run.mesh));
+  add_meshes(record, input, output);
+  add_simulations(record, output.mesh, progress);
+  return std::move(output.mesh);
+}
+
+}  // namespace smopt::experiments

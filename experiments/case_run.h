@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "experiments/record.h"
+#include "experiments/surface_stage.h"
+#include "smopt/improve/method.h"
+#include "smopt/mesh/triangle_mesh.h"
+#include "smopt/progress.h"
+
+namespace smopt::experiments {
+
+/// A mesh with what the judge says about it, so that a mesh that many cases share is judged once.
+struct JudgedMesh {
+  TriangleMesh mesh;
+  Json metrics;        ///< as `smopt measure --json`
+  std::string sha256;  ///< of the mesh as an OFF file
+};
+
+JudgedMesh judge(TriangleMesh mesh);
+
+/// The mesh that the methods get: the initial one, checked, oriented and without its cavities. \throws InvalidMesh
+JudgedMesh prepare_input(const TriangleMesh& initial);
+
+/// Fills the record of the mesh as it was generated: its metrics (before and after are the same) and TetGen.
+void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface, const ProgressCallback& progress);
+
+/// Runs a method with its defaults, `repeats` times on one thread from the initial mesh on (validity and cavities are timed too), judges
+/// the result and tries TetGen, and fills the record as far as it gets. \return the improved mesh. \throws whatever the method throws.
+TriangleMesh run_method_case(Json& record, const Method& method, const TriangleMesh& initial, const JudgedMesh& input, int repeats,
+                             const ProgressCallback& progress);
+
+}  // namespace smopt::experiments

@@ -1,0 +1,40 @@
+#include "experiments/figures/figures.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdlib>
+
+#include "experiments/embedded.h"
+#include "metrics/tetgen/child_process.h"
+#include "smopt/error.h"
+
+namespace smopt::experiments {
+namespace {
+
+/// Ten molecules take seconds; much longer is a Python that hangs.
+constexpr double kTimeLimitSeconds = 600;
+
+std::string python() {
+  const char* given = std::getenv("SMOPT_PYTHON");
+  return given != nullptr && *given != '\0' ? given : "/usr/bin/python3";
+}
+
+}  // namespace
+
+void draw_figures(const RecordSet& records, const std::filesystem::path& directory, const ProgressCallback& progress) {
+  const std::vector<std::string> command = {python(),
+                                            "-c",
+                                            std::string(embedded::plot_program()),
+                                            directory.string(),
+                                            "--molecules",
+                                            fmt::format("{}", fmt::join(records.molecules(), ",")),
+                                            "--methods",
+                                            fmt::format("{}", fmt::join(records.methods(), ","))};
+  if (!std::filesystem::exists(command.front()))
+    throw InvalidInput(fmt::format("figures: {} does not exist (Debian package python3-matplotlib; or set SMOPT_PYTHON)", command.front()));
+  const metrics::ProcessOutcome outcome = metrics::run_process(command, {kTimeLimitSeconds, 0}, "figures", progress);
+  if (outcome.exit_status != 0) throw InvalidInput(fmt::format("figures: {} failed: {}", command.front(), outcome.output));
+}
+
+}  // namespace smopt::experiments

@@ -1,0 +1,245 @@
+"""Figures 5, 6 and 7 of Liu et al. 2017 (PLoS ONE 12(9): e0184206), from the records of a run and nothing else.
+
+plot.py DIR [--molecules A,B] [--methods A,B] [--dump FILE]
+
+Reads DIR/records/<molecule>/<method>.json and writes DIR/figures/fig{5,6,7}.{svg,png}; the same bytes for the same records. With --dump the
+bars that were drawn are written to FILE as JSON: {"fig6": [{"row": 0, "column": 0, "bars": [[left, width, height], ...]}, ...], ...}.
+"""
+
+import argparse
+import json
+import pathlib
+import sys
+
+try:
+    import matplotlib
+except ImportError:
+    sys.exit(f"{sys.executable} has no matplotlib; install Debian's package python3-matplotlib, or set SMOPT_PYTHON to a Python that has it")
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402 (the backend comes first)
+
+# Okabe and Ito's colours (2008), which stay apart for the colour-blind; the hatches keep them apart in black and white.
+PREPARED = "initial, cavities deleted"
+STYLES = {
+    "initial": ("#999999", ""),
+    PREPARED: ("#56B4E9", "//"),
+    "smopt": ("#0072B2", ""),
+    "laplacian": ("#E69F00", "\\\\"),
+}
+OTHER_STYLES = [("#009E73", "xx"), ("#D55E00", ".."), ("#CC79A7", "++"), ("#F0E442", "oo")]
+
+PNG_DPI = 150  # 1500 pixels over a figure of ten inches
+MESSAGE_WIDTH = 34  # characters of a failure's reason in a panel
+
+
+def set_style():
+    matplotlib.rcdefaults()  # no settings of the user's: the same picture everywhere
+    matplotlib.rcParams.update({
+        "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
+        "hatch.linewidth": 0.6, "svg.hashsalt": "smopt", "savefig.dpi": PNG_DPI,
+    })
+
+
+def read_records(folder):
+    records = {}
+    for file in sorted(folder.glob("*/*.json")):
+        record = json.loads(file.read_text(encoding="utf-8"))
+        records[record["molecule"]["name"], record["method"]] = record
+    return records
+
+
+def is_done(record):
+    return record is not None and record["status"] == "done"
+
+
+def number(record, *keys):
+    """The value at a path of keys; None where the case failed or has no such number."""
+    value = record if is_done(record) else None
+    for key in keys:
+        value = value.get(key) if isinstance(value, dict) else None
+    return value
+
+
+class Run:
+    """The records with the order in which molecules and methods are shown."""
+
+    def __init__(self, records, molecules, methods):
+        self.records = records
+        self.molecules = molecules or sorted({molecule for molecule, _ in records})
+        self.methods = methods or sorted({method for _, method in records}, key=lambda name: (name != "initial", name != "smopt", name))
+
+    def record(self, molecule, method):
+        return self.records.get((molecule, method))
+
+    def records_of(self, molecule):
+        return [self.records[molecule, method] for method in self.methods if (molecule, method) in self.records]
+
+    def molecule_title(self, molecule):
+        block = self.records_of(molecule)[0]["molecule"]
+        labels = {"stand-in": " (stand-in)", "near-copy": " (near copy)"}
+        return block["title"] + labels.get(block["role"], "")
+
+    def method_title(self, method):
+        titles = [record["method_title"] for (_, name), record in self.records.items() if name == method]
+        return titles[0] if titles else method
+
+    def prepared(self, molecule, quantity):
+        """Of the initial mesh without its cavities: what every method was given."""
+        given = [number(self.record(molecule, method), "metrics", "before", quantity) for method in self.methods if method != "initial"]
+        return next((value for value in given if value is not None), None)
+
+
+def styles_of(series):
+    others = iter(OTHER_STYLES * len(series))
+    return [STYLES[name] if name in STYLES else next(others) for name in series]
+
+
+def series_of(run, quantity):
+    """Name, legend and one value a molecule for each bar of a group."""
+    series = []
+    for method in run.methods:
+        values = [number(run.record(molecule, method), "metrics", "after", quantity) for molecule in run.molecules]
+        series.append((method, run.method_title(method), values))
+    prepared = [run.prepared(molecule, quantity) for molecule in run.molecules]
+    if any(value is not None for value in prepared):
+        series.insert(1 if run.methods[0] == "initial" else 0, (PREPARED, PREPARED, prepared))
+    return series
+
+
+def label_change(axes, x, value, reference):
+    """The change against the initial mesh without cavities, above a bar of an improved mesh."""
+    if value is None or not reference:
+        return
+    text = f"{100 * (value / reference - 1):+.1f} %".replace("-", "\N{MINUS SIGN}")
+    axes.annotate(text, (x, value), xytext=(0, 3), textcoords="offset points", rotation=90, ha="center", va="bottom", fontsize=8)
+
+
+def draw_bar_group(axes, run, quantity, unit_label):
+    series = series_of(run, quantity)
+    width = 0.8 / len(series)
+    for index, ((name, title, values), (colour, hatch)) in enumerate(zip(series, styles_of([name for name, _, _ in series]))):
+        positions = [group + (index - (len(series) - 1) / 2) * width for group in range(len(values))]
+        axes.bar(positions, [value or 0 for value in values], width, label=title, color=colour, hatch=hatch, edgecolor="black",
+                 linewidth=0.6)
+        if name not in ("initial", PREPARED):
+            for group, (position, value) in enumerate(zip(positions, values)):
+                label_change(axes, position, value, run.prepared(run.molecules[group], quantity))
+        for position, value in zip(positions, values):
+            if value is None:
+                axes.annotate("none", (position, 0), xytext=(0, 3), textcoords="offset points", rotation=90, ha="center", va="bottom",
+                              fontsize=8)
+    axes.set_xticks(range(len(run.molecules)), [run.molecule_title(molecule) for molecule in run.molecules],
+                    rotation=15 if len(run.molecules) > 6 else 0)
+    axes.set_ylabel(unit_label)
+    axes.margins(y=0.18)  # room for the changes above the bars
+    axes.ticklabel_format(axis="y", style="plain")
+    axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}")))
+
+
+def figure5(run):
+    width = max(7.0, 1.9 * len(run.molecules) + 1.5)
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(width, 8.2), layout="constrained")
+    draw_bar_group(top, run, "area", "area (Å²)")
+    draw_bar_group(bottom, run, "volume", "enclosed volume (Å³)")
+    top.set_title("(a) Area", loc="left")
+    bottom.set_title("(b) Volume", loc="left")
+    top.legend(loc="lower left", bbox_to_anchor=(0, 1.1), borderaxespad=0, ncols=4, frameon=False)
+    bottom.set_xlabel("molecule; above the bars: change against the initial mesh without its cavities")
+    return figure
+
+
+def why_empty(record):
+    if record is None:
+        return "not run"
+    return f"failed: {record['reason']}" if not is_done(record) else "no histogram"
+
+
+def draw_histogram(axes, record, quantity, colour):
+    histogram = number(record, "metrics", "after", quantity, "histogram")
+    if not histogram or not histogram["counts"]:
+        text = why_empty(record)
+        axes.text(0.5, 0.5, "\n".join(text[i:i + MESSAGE_WIDTH] for i in range(0, len(text), MESSAGE_WIDTH)), transform=axes.transAxes,
+                  ha="center", va="center", fontsize=8)
+        return
+    edges, counts = histogram["edges"], histogram["counts"]
+    axes.bar(edges[:-1], counts, [right - left for left, right in zip(edges, edges[1:])], align="edge", color=colour, edgecolor="white",
+             linewidth=0.3)
+
+
+def histogram_figure(run, quantity, label, limits, ticks, count_label):
+    rows, columns = len(run.molecules), len(run.methods)
+    figure, panels = plt.subplots(rows, columns, figsize=(max(6.0, 3.2 * columns), 2.1 * rows + 0.7), squeeze=False, sharex=True,
+                                  sharey="row", layout="constrained")
+    for row, molecule in enumerate(run.molecules):
+        for column, (method, (colour, _)) in enumerate(zip(run.methods, styles_of(run.methods))):
+            axes = panels[row][column]
+            draw_histogram(axes, run.record(molecule, method), quantity, colour)
+            axes.set_xlim(*limits)
+            axes.set_xticks(ticks)
+            axes.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
+            if row == 0:
+                axes.set_title(run.method_title(method), pad=16)
+            if row == rows - 1:
+                axes.set_xlabel(label)
+        panels[row][0].set_ylabel(f"{run.molecule_title(molecule)}\n{count_label}")
+    return figure
+
+
+def figure6(run):
+    return histogram_figure(run, "edge_ratio", "shortest / longest edge", (0, 1), [0, 0.2, 0.4, 0.6, 0.8, 1.0], "triangles per 0.02")
+
+
+def figure7(run):
+    return histogram_figure(run, "angle_deg", "angle (°)", (0, 180), [0, 30, 60, 90, 120, 150, 180], "angles per 2°")
+
+
+FIGURES = {"fig5": figure5, "fig6": figure6, "fig7": figure7}
+
+
+def bars_of(figure):
+    """Every bar as it was drawn: left edge, width, height."""
+    panels = []
+    for axes in figure.axes:
+        spec = axes.get_subplotspec()
+        bars = [[patch.get_x(), patch.get_width(), patch.get_height()] for container in axes.containers for patch in container.patches]
+        panels.append({"row": spec.rowspan.start, "column": spec.colspan.start, "bars": bars})
+    return panels
+
+
+def save(figure, folder, name):
+    figure.savefig(folder / f"{name}.svg", metadata={"Date": None, "Creator": None})
+    figure.savefig(folder / f"{name}.png", metadata={"Software": None})
+    plt.close(figure)
+
+
+def parse_arguments():
+    names = lambda text: [name for name in text.split(",") if name]  # noqa: E731
+    parser = argparse.ArgumentParser(description="Figures 5, 6 and 7 from the records of a run.")
+    parser.add_argument("directory", type=pathlib.Path)
+    parser.add_argument("--molecules", type=names, default=[], help="their order; by name if not given")
+    parser.add_argument("--methods", type=names, default=[], help="their order; initial, smopt, then by name if not given")
+    parser.add_argument("--dump", type=pathlib.Path, help="write the bars that were drawn to this file")
+    return parser.parse_args()
+
+
+def main():
+    arguments = parse_arguments()
+    records = read_records(arguments.directory / "records")
+    if not records:
+        sys.exit(f"{arguments.directory / 'records'}: no records")
+    set_style()
+    run = Run(records, arguments.molecules, arguments.methods)
+    folder = arguments.directory / "figures"
+    folder.mkdir(parents=True, exist_ok=True)
+    drawn = {}
+    for name, draw in FIGURES.items():
+        figure = draw(run)
+        drawn[name] = bars_of(figure)
+        save(figure, folder, name)
+    if arguments.dump:
+        arguments.dump.write_text(json.dumps(drawn), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "experiments/datasets.h"
+#include "experiments/surface_stage.h"
+#include "smopt/timing.h"
+
+namespace smopt::experiments {
+
+using Json = nlohmann::ordered_json;
+
+/// Goes up when a key of the records changes its meaning.
+inline constexpr int kRecordSchema = 1;
+
+/// Where the record of a case is: `directory`/records/<molecule>/<method>.json.
+std::filesystem::path record_path(const std::filesystem::path& directory, std::string_view molecule, std::string_view method);
+
+/// How tables and figures call a method: "SMOPT" for `smopt`.
+std::string method_title(std::string_view method);
+
+/// The part of a record that is known before the case runs: molecule, surface, method, version, machine. Its status is "failed" until
+/// `mark_done`, so that a record is never taken for more than it is.
+Json record_header(const Dataset& dataset, std::string_view method);
+
+/// What is known once the surface is there: atoms, the digest of the molecule's file, the generator's report.
+void add_surface(Json& record, const GeneratedSurface& surface);
+
+/// `repeats`: the seconds (wall) and cpu_seconds of every stage in every repeat; `seconds` and `cpu_seconds`: each stage's median.
+void add_repeats(Json& record, std::span<const StageTimes> repeats);
+
+void mark_done(Json& record);
+void mark_failed(Json& record, std::string_view reason);
+
+/// The median; of an even number the mean of the middle two. \pre not empty
+double median(std::vector<double> values);
+
+}  // namespace smopt::experiments

@@ -1,0 +1,205 @@
+#include "experiments/runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "experiments/case_run.h"
+#include "experiments/record.h"
+#include "smopt/error.h"
+#include "smopt/io/file.h"
+#include "smopt/io/mesh_io.h"
+#include "smopt/timing.h"
+
+namespace smopt::experiments {
+namespace {
+
+/// How much of the run is done, by the sizes of the molecules' files: what a case costs grows about as they do.
+class Workload {
+ public:
+  explicit Workload(const RunOptions& options) : cases_(options.datasets.size() * options.methods.size()) {
+    for (const Dataset& dataset : options.datasets) total_ += weight(dataset) * static_cast<double>(options.methods.size());
+  }
+
+  void finish(const Dataset& dataset) {
+    done_ += weight(dataset);
+    ++finished_;
+  }
+  [[nodiscard]] double fraction() const { return done_ / total_; }
+  [[nodiscard]] double seconds_left() const { return clock_.elapsed().wall * (total_ - done_) / done_; }
+  [[nodiscard]] double seconds() const { return clock_.elapsed().wall; }
+  [[nodiscard]] std::size_t finished() const { return finished_; }
+  [[nodiscard]] std::size_t cases() const { return cases_; }
+
+ private:
+  static double weight(const Dataset& dataset) {
+    std::error_code missing;
+    const auto bytes = std::filesystem::file_size(dataset.path, missing);
+    return missing ? 1.0 : static_cast<double>(bytes) + 1.0;
+  }
+
+  Stopwatch clock_;
+  std::size_t cases_;
+  std::size_t finished_ = 0;
+  double total_ = 0;
+  double done_ = 0;
+};
+
+/// What the cases of one molecule share; made when the first of them asks for it. A failure is remembered: it fails all that ask.
+class SharedMeshes {
+ public:
+  SharedMeshes(const Dataset& dataset, int repeats, const ProgressCallback& progress)
+      : dataset_(dataset), repeats_(repeats), progress_(progress) {}
+
+  const GeneratedSurface& surface() {
+    return remembered(surface_, [&] { return generate_surface(dataset_, repeats_, progress_); });
+  }
+  const JudgedMesh& initial() {
+    return remembered(initial_, [&] { return judge(surface().mesh); });
+  }
+  const JudgedMesh& input() {
+    return remembered(input_, [&] { return prepare_input(surface().mesh); });
+  }
+
+ private:
+  template <class T>
+  struct Remembered {
+    std::optional<T> value;
+    std::exception_ptr failure;
+  };
+
+  template <class T, class Make>
+  static const T& remembered(Remembered<T>& slot, const Make& make) {
+    if (slot.failure) std::rethrow_exception(slot.failure);
+    if (!slot.value) {
+      try {
+        slot.value = make();
+      } catch (const Cancelled&) {
+        throw;
+      } catch (...) {
+        slot.failure = std::current_exception();
+        throw;
+      }
+    }
+    return *slot.value;
+  }
+
+  const Dataset& dataset_;
+  int repeats_;
+  const ProgressCallback& progress_;
+  Remembered<GeneratedSurface> surface_;
+  Remembered<JudgedMesh> initial_;
+  Remembered<JudgedMesh> input_;
+};
+
+/// Makes the folder that `path` is to be in; if that fails, so does writing there, which says why.
+void make_folder_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::create_directories(path.parent_path(), ignored);
+}
+
+/// Reasons may quote what a program printed, which need not be UTF-8.
+void write_record(const std::filesystem::path& directory, const Json& record) {
+  const std::filesystem::path path =
+      record_path(directory, record.at("molecule").at("name").get<std::string>(), record.at("method").get<std::string>());
+  make_folder_of(path);
+  write_file(path, record.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void keep_mesh(const RunOptions& options, const Dataset& dataset, std::string_view name, const TriangleMesh& mesh) {
+  if (!options.keeps_meshes) return;
+  const std::filesystem::path path = options.directory / "meshes" / dataset.name / (std::string(name) + ".off");
+  make_folder_of(path);
+  write_mesh(path, mesh);
+}
+
+/// Fills the record of one case as far as it gets. \throws what it fails of.
+void run_case(Json& record, const RunOptions& options, const MethodRegistry& registry, const Dataset& dataset, const std::string& method,
+              SharedMeshes& meshes, const ProgressCallback& progress) {
+  add_surface(record, meshes.surface());
+  if (method == kInitial) {
+    run_initial_case(record, meshes.initial(), meshes.surface(), progress);
+    keep_mesh(options, dataset, method, meshes.initial().mesh);
+    return;
+  }
+  const JudgedMesh& input = meshes.input();
+  keep_mesh(options, dataset, "without-cavities", input.mesh);
+  const TriangleMesh improved = run_method_case(record, registry.find(method), meshes.surface().mesh, input, options.repeats, progress);
+  keep_mesh(options, dataset, method, improved);
+}
+
+/// The record of one case, whatever becomes of it.
+Json record_case(const RunOptions& options, const MethodRegistry& registry, const Dataset& dataset, const std::string& method,
+                 SharedMeshes& meshes, const ProgressCallback& progress) {
+  Json record = record_header(dataset, method);
+  try {
+    run_case(record, options, registry, dataset, method, meshes, progress);
+    mark_done(record);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    mark_failed(record, "out of memory");
+  } catch (const std::exception& error) {
+    mark_failed(record, error.what());
+  }
+  return record;
+}
+
+std::string pairs_text(const Json& record) {
+  const Json& pairs = record.at("metrics").at("after").at("intersecting_pairs");
+  return pairs.is_null() ? "intersecting pairs not counted" : fmt::format("{} intersecting pairs", pairs.get<long>());
+}
+
+std::string case_line(const Json& record, const Workload& work) {
+  const std::string name = fmt::format("[{}/{}] {} {}", work.finished(), work.cases(), record.at("molecule").at("name").get<std::string>(),
+                                       record.at("method").get<std::string>());
+  const std::string left = work.finished() == work.cases() ? "" : fmt::format("; about {:.0f} s left", work.seconds_left());
+  if (record.at("status") != "done") return fmt::format("{}: failed: {}{}", name, record.at("reason").get<std::string>(), left);
+  return fmt::format("{}: {} vertices, {}, TetGen p {}, pY {}; {:.2f} s CPU{}", name, record.at("output").at("vertices").get<long>(),
+                     pairs_text(record), record.at("tetgen").at("p").at("status").get<std::string>(),
+                     record.at("tetgen").at("pY").at("status").get<std::string>(),
+                     record.at("cpu_seconds").at(record.at("method") == kInitial ? "generate" : "total").get<double>(), left);
+}
+
+CaseOutcome outcome_of(const Json& record) {
+  const bool is_done = record.at("status") == "done";
+  return {record.at("molecule").at("name").get<std::string>(), record.at("method").get<std::string>(), is_done,
+          is_done ? "" : record.at("reason").get<std::string>()};
+}
+
+void require_known(const RunOptions& options, const MethodRegistry& registry) {
+  if (options.repeats < 1) throw InvalidOption(fmt::format("--repeats: expected at least 1, got {}", options.repeats));
+  for (const std::string& method : options.methods)
+    if (method != kInitial) static_cast<void>(registry.find(method));  // throws where there is none
+}
+
+}  // namespace
+
+std::size_t RunSummary::failures() const {
+  return static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), [](const CaseOutcome& c) { return !c.is_done; }));
+}
+
+RunSummary run_cases(const RunOptions& options, const MethodRegistry& registry, const RunObserver& observer) {
+  require_known(options, registry);
+  Workload work(options);
+  const ProgressCallback progress = [&](std::string_view, double) {
+    return !observer.progress || observer.progress("experiments", work.fraction());
+  };
+  RunSummary summary;
+  for (const Dataset& dataset : options.datasets) {
+    SharedMeshes meshes(dataset, options.repeats, progress);
+    for (const std::string& method : options.methods) {
+      report_progress(progress, "", 0);
+      const Json record = record_case(options, registry, dataset, method, meshes, progress);
+      write_record(options.directory, record);
+      work.finish(dataset);
+      summary.cases.push_back(outcome_of(record));
+      if (observer.line) observer.line(case_line(record, work));
+    }
+  }
+  summary.seconds = work.seconds();
+  return summary;
+}
+
+}  // namespace smopt::experiments

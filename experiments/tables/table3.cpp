@@ -1,0 +1,58 @@
+#include "experiments/tables/table3.h"
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/record.h"
+#include "experiments/tables/molecule_table.h"
+
+namespace smopt::experiments {
+namespace {
+
+constexpr int kNumber = 3;
+
+/// The methods of the paper's table, which are shown whether they ran here or not.
+constexpr std::array<const char*, 3> kPaperMethods = {"initial", "smopt", "iso2mesh"};
+
+bool is_in_paper(const std::string& method) {
+  return std::find(kPaperMethods.begin(), kPaperMethods.end(), method) != kPaperMethods.end();
+}
+
+/// Those of the paper's table that ran, the others that ran, and the paper's that did not.
+std::vector<std::string> shown_methods(const RecordSet& records) {
+  std::vector<std::string> methods = records.methods();
+  for (const char* method : kPaperMethods)
+    if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.emplace_back(method);
+  return methods;
+}
+
+/// One quantity for every method, the paper's value beside ours.
+void add_columns(std::vector<MoleculeColumn>& columns, const RecordSet& records, const std::string& id, const std::string& title,
+                 const std::function<Cell(const RecordSet::Json*)>& cell) {
+  const std::vector<std::string> run = records.methods();
+  for (const std::string& method : shown_methods(records)) {
+    const std::string column_id = id + "_" + method;
+    const std::string column_title = title + ", " + method_title(method);
+    const bool has_run = std::find(run.begin(), run.end(), method) != run.end();
+    if (has_run)
+      columns.push_back({{column_id, column_title}, [method, cell](const MoleculeRow& row) { return cell(row.record(method)); }});
+    if (is_in_paper(method)) columns.push_back(paper_column(kNumber, column_id, has_run ? "paper" : column_title + " (paper)"));
+  }
+}
+
+}  // namespace
+
+Table table3(const RecordSet& records) {
+  std::vector<MoleculeColumn> columns;
+  add_columns(columns, records, "vertices", "Vertices",
+              [](const RecordSet::Json* record) { return count_or_reason(record, "/metrics/after/vertices"); });
+  add_columns(columns, records, "intersecting_pairs", "Intersecting pairs",
+              [](const RecordSet::Json* record) { return count_of(record, "/metrics/after/intersecting_pairs"); });
+  Table table = molecule_table(records, "table3", "Table 3. Vertices and intersecting pairs of triangles", columns);
+  table.notes.push_back(
+      "Pairs are counted by CGAL's exact predicates. Every method was given the initial mesh without its cavities; \"initial\" is the mesh "
+      "with them.");
+  return table;
+}
+
+}  // namespace smopt::experiments

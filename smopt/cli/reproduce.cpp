@@ -1,0 +1,59 @@
+#include "experiments/reproduce.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+#include "experiments/datasets.h"
+#include "smopt/cli/command.h"
+#include "smopt/cli/progress_bar.h"
+
+namespace smopt::cli {
+namespace {
+
+std::string dataset_names() {
+  std::vector<std::string> names;
+  for (const experiments::Dataset& dataset : experiments::all_datasets()) names.push_back(dataset.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void run(const experiments::ReproduceOptions& options, Context& context) {
+  ProgressBar bar(context.is_quiet);
+  experiments::RunObserver observer;
+  observer.progress = bar.callback();
+  if (!context.is_quiet) observer.line = [&bar](std::string_view line) { bar.print_line(line); };
+  const experiments::RunSummary summary = experiments::reproduce(options, observer);
+  if (!context.is_quiet)
+    fmt::print("{} cases, {} failed, {:.0f} s; tables and figures are in {}\n", summary.cases.size(), summary.failures(), summary.seconds,
+               options.directory.string());
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, Context& context) {
+  const auto options = std::make_shared<experiments::ReproduceOptions>();
+  CLI::App* command = app.add_subcommand("reproduce", "Run the experiments: Tables 1 to 3 and Figures 5 to 7 of the paper");
+  command->footer(
+      "Each molecule is meshed, improved by each method, measured and given to TetGen; a case that fails is a row with its reason.\n"
+      "Molecules: " +
+      dataset_names() +
+      "\n"
+      "\n"
+      "Examples:\n"
+      "  smopt reproduce\n"
+      "  smopt reproduce --molecules ache-monomer --methods initial,smopt,laplacian -o results/ache");
+  command->add_option("-o,--output", options->directory, "folder for records, tables and figures")->capture_default_str();
+  command->add_option("--molecules", options->molecules, "only these, separated by commas")->delimiter(',');
+  command->add_option("--methods", options->methods, "\"initial\" and names from `smopt methods`, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--repeats", options->repeats, "how often everything that is timed is run")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--quick", options->is_quick, "small molecules only, one repeat");
+  command->add_flag("--keep-meshes", options->keeps_meshes, "write each case's mesh too");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace smopt::cli
