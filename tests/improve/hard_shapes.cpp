@@ -135,7 +135,7 @@ TriangleMesh plates_on_a_noisy_sheet(double gap, std::uint32_t seed) {
 }
 
 TriangleMesh random_molecule_surface(std::size_t atoms, std::uint32_t seed) {
-  constexpr double kAtomsPerVolume = 0.012;  // per Å³: loose enough for necks and handles, dense enough for cavities
+  constexpr double kAtomsPerVolume = 0.025;  // per Å³: sparser, it falls apart into balls; denser, it has no handles
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> coordinate(0, std::cbrt(static_cast<double>(atoms) / kAtomsPerVolume)), radius(1.2, 2);
   Molecule molecule;

@@ -33,7 +33,7 @@ TriangleMesh dents_with_things_in_one();
 /// Two plates of which the lower one's top and the upper one's bottom are the same noisy sheet, `gap` apart.
 TriangleMesh plates_on_a_noisy_sheet(double gap, std::uint32_t seed);
 
-/// The Gaussian surface of randomly placed atoms: necks, handles, cavities and several components.
+/// The Gaussian surface of randomly placed atoms: necks, handles, and now and then a second component.
 TriangleMesh random_molecule_surface(std::size_t atoms, std::uint32_t seed);
 
 /// One new vertex of valence 3 in every face, at random places well inside.

@@ -14,11 +14,15 @@ std::vector<FacePair> intersecting_pairs(const TriangleMesh& mesh) {
   return metrics::find_intersections(mesh).pairs;
 }
 
-std::vector<FacePair> new_pairs(const TriangleMesh& before, const TriangleMesh& after) {
-  const std::vector<FacePair> old_ones = intersecting_pairs(before), all = intersecting_pairs(after);
+std::vector<FacePair> new_pairs(const std::vector<FacePair>& before, const TriangleMesh& after) {
+  const std::vector<FacePair> all = intersecting_pairs(after);
   std::vector<FacePair> result;
-  std::set_difference(all.begin(), all.end(), old_ones.begin(), old_ones.end(), std::back_inserter(result));
+  std::set_difference(all.begin(), all.end(), before.begin(), before.end(), std::back_inserter(result));
   return result;
+}
+
+std::vector<FacePair> new_pairs(const TriangleMesh& before, const TriangleMesh& after) {
+  return new_pairs(intersecting_pairs(before), after);
 }
 
 double winding_number(const TriangleMesh& mesh, const Vec3& point) {

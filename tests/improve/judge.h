@@ -16,7 +16,8 @@ using FacePair = std::pair<FaceId, FaceId>;
 /// The intersecting pairs as CGAL sees them (`metrics::find_intersections`), sorted.
 std::vector<FacePair> intersecting_pairs(const TriangleMesh& mesh);
 
-/// The pairs of `after` that `before` does not have. \pre the faces of both have the same numbers.
+/// The pairs of `after` that `before` does not have; `before` may be given as its pairs. \pre the faces of both have the same numbers.
+std::vector<FacePair> new_pairs(const std::vector<FacePair>& before, const TriangleMesh& after);
 std::vector<FacePair> new_pairs(const TriangleMesh& before, const TriangleMesh& after);
 
 MATCHER(HasNoIntersections, negation ? "has intersecting triangles" : "has no two triangles that intersect") {

@@ -19,7 +19,8 @@ using ::testing::Not;
 bool is_ok(const TriangleMesh& mesh, VertexId v, const Vec3& target) {
   TriangleMesh copy = mesh;
   const VertexRings rings = build_rings(mesh).value();
-  MoveGuard guard(copy, rings);
+  GuardedSurface surface(copy, rings);
+  MoveGuard guard(surface);
   guard.select(v, target);
   return guard.is_move_ok(target);
 }
@@ -31,9 +32,10 @@ TriangleMesh moved(TriangleMesh mesh, VertexId v, const Vec3& target) {
 
 /// Whether CGAL sees a new pair at one of the sampled moments of the move; the end is one of them.
 bool meets_at_some_moment(const TriangleMesh& mesh, VertexId v, const Vec3& target, int samples) {
+  const std::vector<FacePair> pairs_before = intersecting_pairs(mesh);
   for (int i = samples; i > 0; --i) {
     const Vec3 at = i == samples ? target : Vec3(mesh.points[v] + (target - mesh.points[v]) * i / samples);
-    if (!new_pairs(mesh, moved(mesh, v, at)).empty()) return true;
+    if (!new_pairs(pairs_before, moved(mesh, v, at)).empty()) return true;
   }
   return false;
 }
@@ -138,7 +140,8 @@ TEST(MoveGuard, RefusesToJumpPastAThinPlateInTheWay) {
 TEST(MoveGuard, AcceptsATargetThatIsAHalvedStepAfterTheWholeOneWasRefused) {
   TriangleMesh mesh = plate(4, 1);
   const VertexRings rings = build_rings(mesh).value();
-  MoveGuard guard(mesh, rings);
+  GuardedSurface surface(mesh, rings);
+  MoveGuard guard(surface);
   const Vec3 step(0.1, 0.1, -2);
   guard.select(kMiddle, kMiddlePosition + step);
   EXPECT_FALSE(guard.is_move_ok(kMiddlePosition + step));
@@ -152,7 +155,8 @@ TEST(MoveGuard, AcceptsATargetThatIsAHalvedStepAfterTheWholeOneWasRefused) {
 TEST(MoveGuard, KnowsWhereTrianglesHaveMovedTo) {
   TriangleMesh mesh = joined(plate(4, 1), translated(plate(4, 1), {0, 0, 3}));
   const VertexRings rings = build_rings(mesh).value();
-  MoveGuard guard(mesh, rings);
+  GuardedSurface surface(mesh, rings);
+  MoveGuard guard(surface);
   const auto other = static_cast<VertexId>(50 + 25 + kMiddle);  // middle of the upper plate's bottom, at z = 2.5
   guard.select(kMiddle, {2, 2, 2});
   ASSERT_TRUE(guard.is_move_ok({2, 2, 2}));
@@ -198,7 +202,8 @@ TEST(MoveGuard, DecidesTheFoldOfAStarExactlyWhenItsTipComesFromFarAway) {
     const double length = std::pow(10.0, 2 + 3 * uniform(random));
     TriangleMesh mesh = hexagonal_bipyramid(Vec3::Constant(length), kSize);
     const VertexRings rings = build_rings(mesh).value();
-    MoveGuard guard(mesh, rings);
+    GuardedSurface surface(mesh, rings);
+    MoveGuard guard(surface);
     const Vec3 aside = Vec3::Constant(length) + Vec3(uniform(random), uniform(random), uniform(random));
     guard.select(0, aside);
     ASSERT_TRUE(guard.is_move_ok(aside));

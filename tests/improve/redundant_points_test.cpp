@@ -240,7 +240,7 @@ TEST_P(ManyPoints, LeaveNothingForASecondRun) {
 
 TEST_P(ManyPoints, NeverCreateAnIntersectingPairHoweverLargeTheTolerance) {
   for (const double tolerance : {0.1, 10.0}) {
-    for (const TriangleMesh& start : {icosphere(2), linked_rings(), plates_on_a_noisy_sheet(1e-9, GetParam())}) {
+    for (const TriangleMesh& start : {icosphere(2), plates_on_a_noisy_sheet(1e-9, GetParam())}) {
       const TriangleMesh mesh = with_points_on_edges(with_points_in_faces(start, GetParam()), GetParam());
       for (const double amplitude : {0.0, 0.02}) {
         const TriangleMesh rough = noisy(mesh, amplitude, GetParam());

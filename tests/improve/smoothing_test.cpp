@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "baselines/laplacian.h"
 #include "smopt/error.h"
+#include "smopt/improve/sweep_schedule.h"
 #include "smopt/mesh/rings.h"
 #include "tests/improve/hard_shapes.h"
 #include "tests/improve/judge.h"
@@ -26,7 +28,7 @@ TriangleMesh smoothed(TriangleMesh mesh, const SmoothingOptions& options = {}) {
 }
 
 /// Thresholds that keep nearly every vertex active, so that many moves are made.
-SmoothingOptions eager(StepRule step, int rounds = 20) {
+SmoothingOptions eager(StepRule step, int rounds = 12) {
   SmoothingOptions options;
   options.rounds = rounds;
   options.thresholds = {0.9, 50};
@@ -81,11 +83,12 @@ INSTANTIATE_TEST_SUITE_P(Smoothing, ManySeeds, ::testing::Range(1U, 4U));
 
 TEST_P(ManySeeds, NeverCreateAnIntersectingPairOnAnyMeshWithAnyOptions) {
   for (const auto& [name, mesh] : hard_meshes(GetParam())) {
+    const std::vector<FacePair> pairs_before = intersecting_pairs(mesh);
     for (const SmoothingOptions& options : all_kinds_of_options()) {
       SCOPED_TRACE(fmt::format("{}, seed {}, step {}, {} halvings", name, GetParam(), static_cast<int>(options.step), options.halvings));
       const TriangleMesh after = smoothed(mesh, options);
       EXPECT_EQ(after.triangles, mesh.triangles);
-      EXPECT_THAT(new_pairs(mesh, after), IsEmpty());
+      EXPECT_THAT(new_pairs(pairs_before, after), IsEmpty());
       EXPECT_TRUE(std::all_of(after.points.begin(), after.points.end(), [](const Vec3& p) { return p.allFinite(); }));
     }
   }
@@ -191,15 +194,21 @@ TEST(Smoothing, MakesANoisySphereBetter) {
   EXPECT_GE(smallest_angle_deg(after), 10);
 }
 
-TEST(Smoothing, MovesTheFirstVertexToTheMeanOfItsNeighboursWhenNothingIsInTheWay) {
+TEST(Smoothing, MovesTheFirstVertexOfTheScheduleToTheMeanOfItsNeighboursWhenNothingIsInTheWay) {
   TriangleMesh mesh = icosphere(1);
   const VertexRings rings = build_rings(mesh).value();
+  std::vector<VertexId> all(mesh.vertex_count());
+  std::iota(all.begin(), all.end(), 0U);
+  const SweepSchedule schedule(TriangleGrid(mesh.points, mesh.triangles), mesh, all);
+  int color = 0;
+  while (schedule.tiles(color).empty()) ++color;
+  const VertexId first = schedule.vertices(schedule.tiles(color)[0])[0];
   Vec3 mean = Vec3::Zero();
-  for (const VertexId w : rings.vertices(0)) mean += mesh.points[w] / rings.valence(0);
+  for (const VertexId w : rings.vertices(first)) mean += mesh.points[w] / rings.valence(first);
   SmoothingOptions options;
   options.rounds = 1;
   smooth(mesh, options);
-  EXPECT_LT((mesh.points[0] - mean).norm(), 1e-15);
+  EXPECT_LT((mesh.points[first] - mean).norm(), 1e-15);
 }
 
 TEST(Smoothing, HalvesTheStepUntilItFits) {
