@@ -1,33 +1,51 @@
 #include "smopt/mesh/rings.h"
 
+#include <algorithm>
+
 namespace smopt {
+
+namespace {
+
+/// A triangle of a star: it leads from one ring vertex to the next.
+struct Spoke {
+  VertexId from, to;
+  FaceId face;
+};
+
+std::vector<Spoke>& spokes_of(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star) {
+  thread_local std::vector<Spoke> spokes;
+  spokes.clear();
+  for (const FaceId f : star) {
+    const Triangle& t = mesh.triangles[f];
+    const int corner = corner_of(t, v);
+    spokes.push_back({t[corner < 2 ? corner + 1 : 0], t[corner > 0 ? corner - 1 : 2], f});
+  }
+  return spokes;
+}
+
+/// Brings the spokes into the order of the ring, each beginning where the one before ends; false where they form no single cycle, or where
+/// two begin at the same vertex.
+bool sort_into_cycle(std::vector<Spoke>& spokes) {
+  for (std::size_t i = 0; i + 1 < spokes.size(); ++i) {
+    const auto rest = spokes.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    const auto continues = [to = spokes[i].to](const Spoke& s) { return s.from == to; };
+    const auto next = std::find_if(rest, spokes.end(), continues);
+    if (next == spokes.end() || std::any_of(next + 1, spokes.end(), continues)) return false;
+    std::iter_swap(rest, next);
+  }
+  return spokes.back().to == spokes.front().from;
+}
+
+}  // namespace
 
 bool append_ring(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star, std::vector<VertexId>& vertices,
                  std::vector<FaceId>& faces) {
-  const std::size_t valence = star.size();
-  if (valence < 3) return false;
-  const std::size_t start = vertices.size();
-  const auto next_vertex = [&](FaceId f) { return mesh.triangles[f][(corner_of(mesh.triangles[f], v) + 1) % 3]; };
-  const auto previous_vertex = [&](FaceId f) { return mesh.triangles[f][(corner_of(mesh.triangles[f], v) + 2) % 3]; };
-  FaceId f = star[0];
-  for (std::size_t i = 0; i < valence; ++i) {
-    vertices.push_back(next_vertex(f));
-    faces.push_back(f);
-    const VertexId outgoing = previous_vertex(f);
-    std::size_t continuations = 0;
-    FaceId following = f;
-    for (const FaceId g : star) {
-      if (next_vertex(g) != outgoing) continue;
-      following = g;
-      ++continuations;
-    }
-    const bool is_closing = following == star[0];
-    if (continuations != 1 || is_closing != (i + 1 == valence)) {
-      vertices.resize(start);
-      faces.resize(start);
-      return false;
-    }
-    f = following;
+  if (star.size() < 3) return false;
+  std::vector<Spoke>& spokes = spokes_of(mesh, v, star);
+  if (!sort_into_cycle(spokes)) return false;
+  for (const Spoke& spoke : spokes) {
+    vertices.push_back(spoke.from);
+    faces.push_back(spoke.face);
   }
   return true;
 }

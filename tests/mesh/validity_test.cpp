@@ -223,13 +223,13 @@ TEST(Validity, CountsDoNotDependOnTheOrder) {
   for (std::uint32_t seed = 1; seed <= 10; ++seed) EXPECT_EQ(counts(check_validity(relabelled(mesh, seed))), expected) << "seed " << seed;
 }
 
-TEST(Validity, AVertexOfTenThousandTrianglesTakesNoTime) {
-  TriangleMesh mesh = relabelled(bipyramid(10000), 2);
+TEST(Validity, AVertexOfAHundredThousandTrianglesTakesNoTime) {
+  TriangleMesh mesh = relabelled(bipyramid(100000), 2);
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(check_validity(mesh).is_closed_manifold());
   mesh.triangles.pop_back();
   EXPECT_EQ(check_validity(mesh).boundary_edges.count, 3U);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2)) << "quadratic in the valence";
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20)) << "quadratic in the valence";
 }
 
 }  // namespace
