@@ -94,14 +94,29 @@ std::vector<HalfSpace> half_spaces(const Points& points) {
 
 /// The part of a convex polygon (its corners in order; a segment or a point is one too) in a half-space: Sutherland and Hodgman 1974.
 Points clipped(const Points& polygon, const HalfSpace& half) {
+  std::vector<Rational> heights;
+  for (const Point& p : polygon) heights.push_back(height(half.normal, p) - half.offset);
+  if (std::all_of(heights.begin(), heights.end(), [](const Rational& h) { return h <= 0; })) return polygon;
   Points result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const Rational hp = height(half.normal, p) - half.offset, hq = height(half.normal, q) - half.offset;
+    const std::size_t next = (i + 1) % polygon.size();
+    const Point &p = polygon[i], &q = polygon[next];
+    const Rational &hp = heights[i], &hq = heights[next];
     if (hp <= 0) result.push_back(p);
     if ((hp < 0 && hq > 0) || (hp > 0 && hq < 0)) result.push_back(p + (hp / (hp - hq)) * (q - p));
   }
   return result;
+}
+
+/// Whether an axis-aligned box of the one lies apart from that of the other: nothing is rounded.
+bool are_boxes_apart(std::span<const Vec3> p, std::span<const Vec3> q) {
+  for (int i = 0; i < 3; ++i) {
+    const auto less = [i](const Vec3& u, const Vec3& v) { return u[i] < v[i]; };
+    const auto [p_low, p_high] = std::minmax_element(p.begin(), p.end(), less);
+    const auto [q_low, q_high] = std::minmax_element(q.begin(), q.end(), less);
+    if ((*p_high)[i] < (*q_low)[i] || (*q_high)[i] < (*p_low)[i]) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -120,9 +135,13 @@ bool are_rationally_collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 bool hulls_meet_beyond(std::span<const Vec3> p, std::span<const Vec3> q, std::span<const Vec3> shared) {
+  if (are_boxes_apart(p, q)) return false;
   Points common = exact(p);
-  for (const HalfSpace& half : half_spaces(exact(q))) common = clipped(common, half);
-  if (common.empty() || shared.empty()) return !common.empty();
+  for (const HalfSpace& half : half_spaces(exact(q))) {
+    common = clipped(common, half);
+    if (common.empty()) return false;
+  }
+  if (shared.empty()) return true;
   const std::vector<HalfSpace> allowed = half_spaces(exact(shared));
   return std::any_of(common.begin(), common.end(), [&](const Point& corner) {
     return std::any_of(allowed.begin(), allowed.end(), [&](const HalfSpace& half) { return !half.contains(corner); });
