@@ -6,42 +6,65 @@
 #include "smopt/geometry/swept_triangle.h"
 
 namespace smopt {
-MoveGuard::MoveGuard(TriangleMesh& mesh, const VertexRings& rings)
-    : mesh_(mesh), rings_(rings), grid_(mesh.points, mesh.triangles), axes_(mesh.vertex_count()), ring_marks_(mesh.vertex_count(), 0) {}
+namespace {
+
+/// Up to this valence a linear search of the ring is the fastest way to find a vertex on it.
+constexpr std::size_t kLinearSearch = 64;
+
+}  // namespace
 
 void MoveGuard::select(VertexId v, const Vec3& reach) {
-  mark_ring(false);
   vertex_ = v;
-  position_ = mesh_.points[v];
-  reach_ = reach;
-  ring_ = rings_.vertices(v);
+  position_ = surface_.mesh.points[v];
+  ring_ = surface_.rings.vertices(v);
   ring_points_.clear();
-  for (const VertexId w : ring_) ring_points_.push_back(mesh_.points[w] - position_);
-  mark_ring(true);
+  ring_filter_ = 0;
+  // The box is made from the coordinates themselves: sums of differences may be off by a unit in the last place.
+  Vec3 low = reach.cwiseMin(position_), high = reach.cwiseMax(position_);
+  for (const VertexId w : ring_) {
+    const Vec3& p = surface_.mesh.points[w];
+    ring_points_.push_back(p - position_);
+    ring_filter_ |= std::uint64_t{1} << (w % 64);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  reach_box_ = surface_.grid.box_of(low, high);
+  ring_order_.clear();
   has_candidates_ = false;
 }
 
-void MoveGuard::mark_ring(bool is_selected) {
-  for (std::size_t i = 0; i < ring_.size(); ++i) ring_marks_[ring_[i]] = static_cast<std::uint32_t>(is_selected ? i + 1 : 0);
+bool MoveGuard::is_within(const TriangleGrid::CubeRange& region) const {
+  const std::span<const FaceId> faces = surface_.rings.faces(vertex_);
+  return region.contains(surface_.grid.cubes_of(reach_box_)) &&
+         std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return region.contains(surface_.grid.listing(f)); });
+}
+
+int MoveGuard::slot_of(VertexId w) const {
+  if ((ring_filter_ >> (w % 64) & 1) == 0) return kNotOnRing;
+  if (ring_.size() <= kLinearSearch) {
+    for (std::size_t i = 0; i < ring_.size(); ++i)
+      if (ring_[i] == w) return static_cast<int>(i);
+    return kNotOnRing;
+  }
+  const auto it = std::lower_bound(ring_order_.begin(), ring_order_.end(), std::pair(w, 0));
+  return it != ring_order_.end() && it->first == w ? it->second : kNotOnRing;
 }
 
 void MoveGuard::gather_candidates() {
   has_candidates_ = true;
   separation_.set_star(ring_points_);
   candidates_.clear();
-  // From the coordinates themselves: sums of differences may be off by a unit in the last place.
-  Vec3 low = reach_.cwiseMin(position_), high = reach_.cwiseMax(position_);
-  for (const VertexId w : ring_) {
-    low = low.cwiseMin(mesh_.points[w]);
-    high = high.cwiseMax(mesh_.points[w]);
+  if (ring_.size() > kLinearSearch) {
+    for (std::size_t i = 0; i < ring_.size(); ++i) ring_order_.emplace_back(ring_[i], static_cast<int>(i));
+    std::sort(ring_order_.begin(), ring_order_.end());
   }
-  grid_.for_overlapping(grid_.box_of(low, high), [&](FaceId f) {
-    const Triangle& t = mesh_.triangles[f];
+  surface_.grid.for_overlapping(reach_box_, [&](FaceId f) {
+    const Triangle& t = surface_.mesh.triangles[f];
     if (t[0] == vertex_ || t[1] == vertex_ || t[2] == vertex_) return;
     Candidate candidate{f, {}, {}};
     for (int i = 0; i < 3; ++i) {
-      candidate.slots[i] = static_cast<int>(ring_marks_[t[i]]) - 1;
-      candidate.points[i] = (mesh_.points[t[i]] - position_).cast<float>();
+      candidate.slots[i] = slot_of(t[i]);
+      candidate.points[i] = (surface_.mesh.points[t[i]] - position_).cast<float>();
     }
     candidates_.push_back(candidate);
   });
@@ -56,13 +79,24 @@ bool MoveGuard::is_move_ok(const Vec3& target) {
   return std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return is_clear_of(c); });
 }
 
+Box MoveGuard::new_box(std::size_t slot) const {
+  return surface_.grid.box_of(target_, surface_.mesh.points[ring_[slot]], surface_.mesh.points[ring_[next(slot)]]);
+}
+
+bool MoveGuard::needs_new_block() const {
+  const std::span<const FaceId> faces = surface_.rings.faces(vertex_);
+  for (std::size_t i = 0; i < ring_.size(); ++i)
+    if (surface_.grid.needs_new_block(faces[i], new_box(i))) return true;
+  return false;
+}
+
 void MoveGuard::apply() {
-  mesh_.points[vertex_] = target_;
-  axes_[vertex_] = vertex_axis_;
-  const std::span<const FaceId> faces = rings_.faces(vertex_);
+  surface_.mesh.points[vertex_] = target_;
+  surface_.axes[vertex_] = vertex_axis_;
+  const std::span<const FaceId> faces = surface_.rings.faces(vertex_);
   for (std::size_t i = 0; i < ring_.size(); ++i) {
-    axes_[ring_[i]] = ring_axes_[i];
-    grid_.move(faces[i], grid_.box_of(target_, mesh_.points[ring_[i]], mesh_.points[ring_[next(i)]]));
+    surface_.axes[ring_[i]] = ring_axes_[i];
+    surface_.grid.move(faces[i], new_box(i));
   }
 }
 
@@ -72,9 +106,9 @@ void MoveGuard::prepare_target(const Vec3& target) {
   normals_.clear();
   double longest2 = 0;
   // Not from `ring_points_`: where the vertex comes from far away, their rounding is above the margin.
-  Vec3 spoke = mesh_.points[ring_.front()] - target;
+  Vec3 spoke = surface_.mesh.points[ring_.front()] - target;
   for (std::size_t i = 0; i < ring_.size(); ++i) {
-    const Vec3 next_spoke = mesh_.points[ring_[next(i)]] - target;
+    const Vec3 next_spoke = surface_.mesh.points[ring_[next(i)]] - target;
     normals_.push_back(spoke.cross(next_spoke));
     longest2 = std::max(longest2, spoke.squaredNorm());
     spoke = next_spoke;
@@ -89,7 +123,7 @@ Vec3 MoveGuard::mean_normal() const {
 }
 
 bool MoveGuard::is_star_ok() {
-  vertex_axis_ = axes_[vertex_];
+  vertex_axis_ = surface_.axes[vertex_];
   const Vec3 axis = to_vector(vertex_axis_);
   if (is_known(vertex_axis_) && std::all_of(normals_.begin(), normals_.end(), [&](const Vec3& n) { return n.dot(axis) > cone_margin_; }))
     return true;
@@ -97,26 +131,31 @@ bool MoveGuard::is_star_ok() {
   return is_known(vertex_axis_) || (is_fold_free_at_target() && is_fold_free_on_the_way());
 }
 
-ConeAxis MoveGuard::find_own_axis() const {
-  std::vector<Vec3> ring;
-  for (const VertexId w : ring_) ring.push_back(mesh_.points[w]);
-  return find_cone_axis({position_, target_, ring, ring});
+ConeAxis MoveGuard::find_own_axis() {
+  scratch_star_.center_from = position_;
+  scratch_star_.center_to = target_;
+  scratch_star_.ring_from.clear();
+  for (const VertexId w : ring_) scratch_star_.ring_from.push_back(surface_.mesh.points[w]);
+  scratch_star_.ring_to = scratch_star_.ring_from;
+  return find_cone_axis(scratch_star_);
 }
 
-ConeAxis MoveGuard::find_ring_axis(std::size_t slot) const {
+ConeAxis MoveGuard::find_ring_axis(std::size_t slot) {
   const VertexId center = ring_[slot];
-  MovingStar star{mesh_.points[center], mesh_.points[center], {}, {}};
-  for (const VertexId w : rings_.vertices(center)) {
-    star.ring_from.push_back(mesh_.points[w]);
-    star.ring_to.push_back(w == vertex_ ? target_ : mesh_.points[w]);
+  scratch_star_.center_from = scratch_star_.center_to = surface_.mesh.points[center];
+  scratch_star_.ring_from.clear();
+  scratch_star_.ring_to.clear();
+  for (const VertexId w : surface_.rings.vertices(center)) {
+    scratch_star_.ring_from.push_back(surface_.mesh.points[w]);
+    scratch_star_.ring_to.push_back(w == vertex_ ? target_ : surface_.mesh.points[w]);
   }
-  return find_cone_axis(star);
+  return find_cone_axis(scratch_star_);
 }
 
 void MoveGuard::judge_ring_cones() {
   ring_axes_.resize(ring_.size());
   for (std::size_t i = 0; i < ring_.size(); ++i) {
-    const ConeAxis& known = axes_[ring_[i]];
+    const ConeAxis& known = surface_.axes[ring_[i]];
     const Vec3 axis = to_vector(known);
     const bool is_kept = normals_[i].dot(axis) > cone_margin_ && normals_[previous(i)].dot(axis) > cone_margin_;
     ring_axes_[i] = is_kept ? known : find_ring_axis(i);
@@ -124,7 +163,7 @@ void MoveGuard::judge_ring_cones() {
 }
 
 bool MoveGuard::is_fold_free_at_target() const {
-  const auto corner = [&](std::size_t k) -> const Vec3& { return mesh_.points[ring_[k]]; };
+  const auto corner = [&](std::size_t k) -> const Vec3& { return surface_.mesh.points[ring_[k]]; };
   for (std::size_t i = 0; i < ring_.size(); ++i) {
     if (are_collinear(target_, corner(i), corner(next(i)))) return false;
     if (triangles_meet_beyond_edge({target_, corner(i), corner(previous(i))}, {target_, corner(i), corner(next(i))})) return false;
@@ -138,10 +177,10 @@ bool MoveGuard::is_fold_free_at_target() const {
 
 bool MoveGuard::is_fold_free_on_the_way() const {
   for (std::size_t k = 0; k < ring_.size(); ++k) {
-    const Vec3 &a = mesh_.points[ring_[k]], &b = mesh_.points[ring_[next(k)]];
+    const Vec3 &a = surface_.mesh.points[ring_[k]], &b = surface_.mesh.points[ring_[next(k)]];
     for (std::size_t j = 0; j < ring_.size(); ++j) {
       if (j == k || j == next(k)) continue;
-      const Vec3& c = mesh_.points[ring_[j]];
+      const Vec3& c = surface_.mesh.points[ring_[j]];
       const int before = orient3d(a, b, c, position_), after = orient3d(a, b, c, target_);
       if (before == 0 && after == 0) return false;      // slides in one plane, where only a cone can vouch for it
       if (before == 0 || before * after > 0) continue;  // leaves a contact, or never comes to one
@@ -166,14 +205,14 @@ bool MoveGuard::is_clear_of(const Candidate& candidate) {
 }
 
 bool MoveGuard::meets_sweep_of(const Candidate& candidate, std::size_t k) const {
-  const Triangle& t = mesh_.triangles[candidate.face];
+  const Triangle& t = surface_.mesh.triangles[candidate.face];
   SharedCorners shared;
   for (int i = 0; i < 3; ++i) {
     if (candidate.slots[i] == static_cast<int>(k)) shared.a = i;
     if (candidate.slots[i] == static_cast<int>(next(k))) shared.b = i;
   }
-  return meets_sweep({mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]}, shared,
-                     {mesh_.points[ring_[k]], mesh_.points[ring_[next(k)]], position_, target_});
+  return meets_sweep({surface_.mesh.points[t[0]], surface_.mesh.points[t[1]], surface_.mesh.points[t[2]]}, shared,
+                     {surface_.mesh.points[ring_[k]], surface_.mesh.points[ring_[next(k)]], position_, target_});
 }
 
 }  // namespace smopt
