@@ -75,6 +75,30 @@ TEST(MoveGuard, RefusesATargetThatMakesATriangleDegenerate) {
   EXPECT_TRUE(is_ok(mesh, kMiddle, {2.5, 2.75, 0.5})) << "short of it";
 }
 
+TEST(MoveGuard, RefusesATargetOnTheLineOfARingEdgeWhereverItIs) {
+  // Small whole multiples of 1/64, so that the target is collinear with the edge exactly.
+  TriangleMesh mesh = noisy(spiky(icosphere(1), 5, 2), 0.1, 5);
+  for (Vec3& p : mesh.points) p = (64 * p).array().round() / 64;
+  const VertexRings rings = build_rings(mesh).value();
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    for (std::size_t i = 0; i < rings.valence(v); ++i) {
+      const Vec3 a = mesh.points[rings.vertices(v)[i]], b = mesh.points[rings.vertices(v)[(i + 1) % rings.valence(v)]];
+      for (const double t : {-2.0, -1.0, -0.25, 0.25, 0.5, 1.25, 2.0, 3.0}) {
+        const Vec3 target = a + t * (b - a);
+        EXPECT_FALSE(is_ok(mesh, v, target)) << "vertex " << v << ", edge " << i << ", t " << t;
+      }
+    }
+  }
+}
+
+TEST(MoveGuard, RefusesToTouchACornerOfAnotherComponentWithAFaceOfTheStar) {
+  // At the target the star's face is in the plane z = 2.5 − 2 (x − 2); the component's corner lies on it, the rest of it beyond.
+  const Vec3 target(2, 2, 2.5);
+  const TriangleMesh diamond = translated(scaled(octahedron(), 0.125), {2.625, 2.25, 1.5});
+  EXPECT_FALSE(is_ok(joined(plate(4, 1), diamond), kMiddle, target));
+  EXPECT_TRUE(is_ok(joined(plate(4, 1), translated(diamond, {std::ldexp(1, -40), 0, 0})), kMiddle, target));
+}
+
 TEST(MoveGuard, RefusesToTouchAnotherSheetButAllowsTheLastDoubleBeforeIt) {
   const TriangleMesh mesh = plate(4, 1);
   EXPECT_FALSE(is_ok(mesh, kMiddle, {2.1, 2.2, -0.5})) << "touching counts";
@@ -127,6 +151,13 @@ TEST(MoveGuard, RefusesToSwallowAComponentWithoutTouchingIt) {
   ASSERT_THAT(moved(mesh, kMiddle, {2, 2, 3}), HasNoIntersections());
   EXPECT_FALSE(is_ok(mesh, kMiddle, {2, 2, 3}));
   EXPECT_TRUE(is_ok(plate(4, 1), kMiddle, {2, 2, 3}));
+}
+
+TEST(MoveGuard, RefusesToSwallowAComponentWithAllItsCornersOnTheWallsBetweenSweptTetrahedra) {
+  const TriangleMesh mesh = joined(octahedron(), translated(scaled(octahedron(), 0.125), {0, 0, 2}));
+  ASSERT_THAT(moved(mesh, 4, {0, 0, 8}), HasNoIntersections());
+  EXPECT_FALSE(is_ok(mesh, 4, {0, 0, 8}));
+  EXPECT_TRUE(is_ok(octahedron(), 4, {0, 0, 8}));
 }
 
 TEST(MoveGuard, RefusesToJumpPastAThinPlateInTheWay) {
