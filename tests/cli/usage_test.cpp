@@ -108,6 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
                       WrongUsage{"NegativeRounds", {"improve", "@/in.off", "-o", "@/out.off", "--rounds", "-1"}, "--rounds"},
                       WrongUsage{"HalfARound", {"improve", "@/in.off", "-o", "@/out.off", "--rounds", "1.5"}, "--rounds"},
                       WrongUsage{"AnAngleThatIsNoNumber", {"improve", "@/in.off", "-o", "@/out.off", "--min-angle", "nan"}, "--min-angle"},
+                      WrongUsage{"ARatioAboveOne", {"improve", "@/in.off", "-o", "@/out.off", "--edge-ratio", "2"}, "edge-ratio"},
+                      WrongUsage{"AnAngleNoTriangleCanHave", {"improve", "@/in.off", "-o", "@/out.off", "--min-angle", "61"}, "min-angle"},
                       WrongUsage{"UnknownStep", {"improve", "@/in.off", "-o", "@/out.off", "--step", "leap"}, "leap"},
                       WrongUsage{"UnknownCavityPolicy", {"improve", "@/in.off", "-o", "@/out.off", "--cavities", "fill"}, "fill"},
                       WrongUsage{"BadTolerance", {"improve", "@/in.off", "-o", "@/out.off", "--tolerance", "1e-4abs"}, "--tolerance"},
