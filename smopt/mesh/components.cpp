@@ -1,33 +1,10 @@
 #include "smopt/mesh/components.h"
 
 #include <limits>
-#include <numeric>
+
+#include "smopt/mesh/disjoint_sets.h"
 
 namespace smopt {
-namespace {
-
-/// Union–find with path halving; the smaller index becomes the root.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  void unite(std::uint32_t i, std::uint32_t j) {
-    i = root(i);
-    j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-}  // namespace
-
 Components connected_components(const TriangleMesh& mesh) {
   DisjointSets sets(mesh.vertex_count());
   for (const Triangle& t : mesh.triangles) {
