@@ -32,6 +32,8 @@ OTHER_STYLES = [("#009E73", "xx"), ("#D55E00", ".."), ("#CC79A7", "++"), ("#F0E4
 PNG_DPI = 150  # 1500 pixels over a figure of ten inches
 MESSAGE_WIDTH = 34  # characters of a failure's reason in a panel
 
+THOUSANDS = matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}"))
+
 
 def set_style():
     matplotlib.rcdefaults()  # no settings of the user's: the same picture everywhere
@@ -133,8 +135,7 @@ def draw_bar_group(axes, run, quantity, unit_label):
                     rotation=15 if len(run.molecules) > 6 else 0)
     axes.set_ylabel(unit_label)
     axes.margins(y=0.18)  # room for the changes above the bars
-    axes.ticklabel_format(axis="y", style="plain")
-    axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}")))
+    axes.yaxis.set_major_formatter(THOUSANDS)
 
 
 def figure5(run):
@@ -145,6 +146,7 @@ def figure5(run):
     top.set_title("(a) Area", loc="left")
     bottom.set_title("(b) Volume", loc="left")
     top.legend(loc="lower left", bbox_to_anchor=(0, 1.1), borderaxespad=0, ncols=4, frameon=False)
+    figure.align_ylabels([top, bottom])
     bottom.set_xlabel("molecule; above the bars: change against the initial mesh without its cavities")
     return figure
 
@@ -177,12 +179,13 @@ def histogram_figure(run, quantity, label, limits, ticks, count_label):
             draw_histogram(axes, run.record(molecule, method), quantity, colour)
             axes.set_xlim(*limits)
             axes.set_xticks(ticks)
-            axes.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
+            axes.yaxis.set_major_formatter(THOUSANDS)
             if row == 0:
-                axes.set_title(run.method_title(method), pad=16)
+                axes.set_title(run.method_title(method))
             if row == rows - 1:
                 axes.set_xlabel(label)
         panels[row][0].set_ylabel(f"{run.molecule_title(molecule)}\n{count_label}")
+    figure.align_ylabels(panels[:, 0])
     return figure
 
 
@@ -202,7 +205,8 @@ def bars_of(figure):
     panels = []
     for axes in figure.axes:
         spec = axes.get_subplotspec()
-        bars = [[patch.get_x(), patch.get_width(), patch.get_height()] for container in axes.containers for patch in container.patches]
+        patches = [patch for container in axes.containers for patch in container.patches]
+        bars = [[float(patch.get_x()), float(patch.get_width()), float(patch.get_height())] for patch in patches]
         panels.append({"row": spec.rowspan.start, "column": spec.colspan.start, "bars": bars})
     return panels
 

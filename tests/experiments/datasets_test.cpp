@@ -1,0 +1,97 @@
+#include "experiments/datasets.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "experiments/paper_table.h"
+#include "smopt/error.h"
+
+namespace smopt::experiments {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Property;
+using ::testing::StartsWith;
+using ::testing::Throws;
+using ::testing::ThrowsMessage;
+
+std::vector<std::string> names_of(const std::vector<Dataset>& datasets) {
+  std::vector<std::string> names;
+  for (const Dataset& dataset : datasets) names.push_back(dataset.name);
+  return names;
+}
+
+constexpr const char* kOne = R"({"molecules": [{"name": "n", "title": "T", "paper_row": null, "role": "stand-in", "about": "a",
+  "source": {"package": "p", "path": "/f.pqr"}, "surface": {"decay_per_A2": 0.5, "isovalue": 2, "spacing_A": 0.7}, "is_quick": true}]})";
+
+std::string one_with(const std::string& from, const std::string& to) {
+  std::string text = kOne;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(Datasets, AreTheFiveMoleculesOfTheMainJob) {
+  EXPECT_THAT(names_of(all_datasets()), ElementsAre("ache-monomer", "achbp", "fas2", "actin-dimer", "1a63"));
+}
+
+TEST(Datasets, OnlyTheAcheMonomerHasARowInThePaperAndItIsThere) {
+  for (const Dataset& dataset : all_datasets()) {
+    EXPECT_EQ(dataset.paper_row.has_value(), dataset.name == "ache-monomer") << dataset.name;
+    EXPECT_EQ(dataset.role, dataset.paper_row ? Role::real : Role::extra) << dataset.name;
+    EXPECT_EQ(paper_table(1).value(dataset.paper_row, "atoms").has_value(), dataset.paper_row.has_value()) << dataset.name;
+  }
+}
+
+TEST(Datasets, AreMeshedAsTheProgramDoesByDefault) {
+  const GaussianSurfaceOptions defaults;
+  for (const Dataset& dataset : all_datasets()) {
+    EXPECT_EQ(dataset.surface.decay, defaults.decay) << dataset.name;
+    EXPECT_EQ(dataset.surface.isovalue, defaults.isovalue) << dataset.name;
+    EXPECT_EQ(dataset.surface.spacing, defaults.spacing) << dataset.name;
+  }
+}
+
+TEST(Datasets, ReadEveryField) {
+  const std::vector<Dataset> datasets = parse_datasets(kOne);
+  ASSERT_EQ(datasets.size(), 1U);
+  const Dataset& d = datasets.front();
+  EXPECT_EQ(d.name, "n");
+  EXPECT_EQ(d.title, "T");
+  EXPECT_FALSE(d.paper_row);
+  EXPECT_EQ(d.role, Role::stand_in);
+  EXPECT_EQ(d.package, "p");
+  EXPECT_EQ(d.path, "/f.pqr");
+  EXPECT_EQ(d.surface.decay, 0.5);
+  EXPECT_EQ(d.surface.isovalue, 2);
+  EXPECT_EQ(d.surface.spacing, 0.7);
+  EXPECT_TRUE(d.is_quick);
+}
+
+TEST(Datasets, SayWhichEntryIsWrong) {
+  EXPECT_THAT([] { parse_datasets(one_with("stand-in", "friend")); },
+              ThrowsMessage<InvalidInput>(::testing::AllOf(HasSubstr("molecule 0"), HasSubstr("'friend'"))));
+  EXPECT_THAT([] { parse_datasets(one_with("\"title\"", "\"titel\"")); }, ThrowsMessage<InvalidInput>(HasSubstr("title")));
+  EXPECT_THAT([] { parse_datasets("{"); }, Throws<InvalidInput>());
+}
+
+TEST(Datasets, AreFoundByNameInTheOrderAskedFor) {
+  const std::vector<std::string> names = {"fas2", "ache-monomer"};
+  EXPECT_THAT(names_of(find_datasets(all_datasets(), names)), ElementsAre("fas2", "ache-monomer"));
+}
+
+TEST(Datasets, AnUnknownNameIsAWrongOptionThatListsTheNames) {
+  const std::vector<std::string> names = {"fas3"};
+  EXPECT_THAT([&] { find_datasets(all_datasets(), names); },
+              ThrowsMessage<InvalidOption>(::testing::AllOf(HasSubstr("'fas3'"), HasSubstr("fas2"), HasSubstr("1a63"))));
+}
+
+TEST(Datasets, AStandInIsCalledOne) {
+  EXPECT_EQ(labelled_title("70S ribosome", "stand-in"), "70S ribosome (stand-in)");
+  EXPECT_EQ(labelled_title("30S ribosome", "near-copy"), "30S ribosome (near copy)");
+  EXPECT_EQ(labelled_title("connexin", "real"), "connexin");
+  EXPECT_EQ(labelled_title("Fasciculin-2", "extra"), "Fasciculin-2");
+}
+
+}  // namespace
+}  // namespace smopt::experiments

@@ -1,0 +1,155 @@
+#include "experiments/figures/figures.h"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "experiments/embedded.h"
+#include "metrics/tetgen/child_process.h"
+#include "smopt/error.h"
+#include "tests/experiments/made_records.h"
+#include "tests/support/files.h"
+
+namespace smopt::experiments {
+namespace {
+
+using smopt::testing::bytes_of;
+using smopt::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
+
+constexpr double kTimeLimitSeconds = 300;  // three figures take seconds; a busy machine may need more
+constexpr const char* kFigures[] = {"fig5", "fig6", "fig7"};
+
+void save(const std::filesystem::path& directory, const Json& record) {
+  const auto path = record_path(directory, record.at("molecule").at("name").get<std::string>(), record.at("method").get<std::string>());
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path) << record.dump();
+}
+
+/// Two molecules, one a stand-in, with three methods; one case failed, one was not run.
+void save_run(const std::filesystem::path& directory) {
+  const Dataset ache = testing::ache_monomer();
+  const Dataset stand_in = testing::made_dataset("capsid", Role::stand_in);
+  for (const char* method : {"initial", "smopt", "laplacian"}) save(directory, testing::made_record(ache, method));
+  save(directory, testing::made_record(stand_in, "initial"));
+  save(directory, testing::failed_record(stand_in, "smopt", "the reason of the failure"));
+}
+
+/// Runs the plotting program by itself; returns the bars it drew, by figure.
+Json drawn_bars(const std::filesystem::path& directory) {
+  const auto dump = directory / "bars.json";
+  const metrics::ProcessOutcome outcome =
+      metrics::run_process({"/usr/bin/python3", "-c", std::string(embedded::plot_program()), directory.string(), "--dump", dump.string()},
+                           {kTimeLimitSeconds, 0}, "figures", {});
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.output;
+  return Json::parse(bytes_of(dump));
+}
+
+const Json& panel(const Json& figure, int row, int column) {
+  for (const Json& candidate : figure)
+    if (candidate.at("row") == row && candidate.at("column") == column) return candidate.at("bars");
+  throw std::runtime_error("no such panel");
+}
+
+/// The figures of one run, drawn once by the library and once, into another folder, by the program itself.
+class DrawnFigures : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    save_run(first_.emplace().path());
+    save_run(second_.emplace().path());
+    draw_figures(RecordSet::load(first_->path()), first_->path());
+    bars_ = drawn_bars(second_->path());
+  }
+  static void TearDownTestSuite() {
+    first_.reset();
+    second_.reset();
+  }
+
+  static const Json& bars(const char* figure, int row, int column) { return panel(bars_.at(figure), row, column); }
+
+  inline static std::optional<TemporaryFolder> first_;
+  inline static std::optional<TemporaryFolder> second_;
+
+ private:
+  inline static Json bars_;
+};
+
+TEST_F(DrawnFigures, AreSvgAndPngAndTheSameBytesTwice) {
+  for (const std::string name : kFigures) {
+    const std::string svg = bytes_of(first_->path() / "figures" / (name + ".svg"));
+    const std::string png = bytes_of(first_->path() / "figures" / (name + ".png"));
+    EXPECT_THAT(svg, HasSubstr("</svg>")) << name;
+    EXPECT_THAT(png, StartsWith("\x89PNG")) << name;
+    EXPECT_TRUE(svg == bytes_of(second_->path() / "figures" / (name + ".svg"))) << name;
+    EXPECT_TRUE(png == bytes_of(second_->path() / "figures" / (name + ".png"))) << name;
+  }
+}
+
+TEST_F(DrawnFigures, TheBarsOfFigures6And7AreTheRecordsCounts) {
+  const Json record = testing::made_record(testing::ache_monomer(), "smopt");
+  for (const auto& [figure, quantity] : {std::pair("fig6", "edge_ratio"), std::pair("fig7", "angle_deg")}) {
+    const Json& histogram = record.at("metrics").at("after").at(quantity).at("histogram");
+    const Json& drawn = bars(figure, 0, 1);
+    ASSERT_EQ(drawn.size(), histogram.at("counts").size()) << figure;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      EXPECT_NEAR(drawn[i][0].get<double>(), histogram.at("edges")[i].get<double>(), 1e-9) << figure;
+      EXPECT_EQ(drawn[i][2], histogram.at("counts")[i]) << figure;
+    }
+    EXPECT_TRUE(bars(figure, 1, 1).empty()) << figure << ": a case that failed has no bars";
+    EXPECT_TRUE(bars(figure, 1, 2).empty()) << figure << ": a case that was not run has no bars";
+  }
+}
+
+TEST_F(DrawnFigures, Figure5ShowsTheInitialMeshWithAndWithoutCavitiesBesideEachMethod) {
+  // Bars of one series follow each other: the two molecules of "initial", of "initial, cavities deleted", of SMOPT, of plain Laplacian.
+  const auto heights = [](int row) {
+    std::vector<double> list;
+    for (const Json& bar : bars("fig5", row, 0)) list.push_back(bar[2].get<double>());
+    return list;
+  };
+  EXPECT_THAT(heights(0), ::testing::ElementsAre(290, 290, 300.5, 0, 290, 0, 290, 0));
+  EXPECT_THAT(heights(1), ::testing::ElementsAre(880, 880, 900.25, 0, 880, 0, 880, 0));
+}
+
+/// Sets an environment variable until the end of the scope.
+class WithEnvironment {
+ public:
+  WithEnvironment(const char* name, const std::string& value) : name_(name) {
+    if (const char* old = getenv(name)) old_ = old;
+    setenv(name, value.c_str(), 1);
+  }
+  ~WithEnvironment() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
+  WithEnvironment(const WithEnvironment&) = delete;
+  WithEnvironment& operator=(const WithEnvironment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+TEST(Figures, APythonWithoutMatplotlibIsAnErrorThatNamesThePackage) {
+  const TemporaryFolder folder;
+  save_run(folder.path());
+  // -S leaves out the folders of installed packages.
+  const auto python = folder.file("python-without-packages", "#!/bin/sh\nexec /usr/bin/python3 -S \"$@\"\n");
+  std::filesystem::permissions(python, std::filesystem::perms::owner_all);
+  const WithEnvironment environment("SMOPT_PYTHON", python.string());
+  EXPECT_THAT([&] { draw_figures(RecordSet::load(folder.path()), folder.path()); },
+              ThrowsMessage<InvalidInput>(HasSubstr("python3-matplotlib")));
+}
+
+TEST(Figures, APythonThatDoesNotExistIsNamed) {
+  const TemporaryFolder folder;
+  save_run(folder.path());
+  const WithEnvironment environment("SMOPT_PYTHON", (folder.path() / "no-python").string());
+  EXPECT_THAT([&] { draw_figures(RecordSet::load(folder.path()), folder.path()); },
+              ThrowsMessage<InvalidInput>(::testing::AllOf(HasSubstr("no-python"), HasSubstr("SMOPT_PYTHON"))));
+}
+
+}  // namespace
+}  // namespace smopt::experiments
