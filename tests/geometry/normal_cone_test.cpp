@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/geometry/exact_hulls.h"
+#include "tests/geometry/random_points.h"
 
 namespace smopt {
 namespace {
@@ -86,7 +87,7 @@ bool meets_itself(const MovingStar& star, int moment) {
 TEST(NormalCone, AnAxisProvesThatTheStarNeverMeetsItselfOnTheWay) {
   RandomStars next_star(3);
   int with_axis = 0, without = 0;
-  for (int i = 0; i < 250; ++i) {
+  for (int i = 0; i < 250 / kThinning; ++i) {
     const MovingStar star = next_star(0.2 + 0.1 * (i % 6));
     if (!is_known(find_cone_axis(star))) {
       ++without;
@@ -95,20 +96,20 @@ TEST(NormalCone, AnAxisProvesThatTheStarNeverMeetsItselfOnTheWay) {
     ++with_axis;
     for (int moment = 0; moment <= kMoments; moment += 2) ASSERT_FALSE(meets_itself(star, moment)) << "star " << i << ", moment " << moment;
   }
-  EXPECT_GT(with_axis, 50);
-  EXPECT_GT(without, 50);
+  EXPECT_GT(with_axis, 50 / kThinning);
+  EXPECT_GT(without, 50 / kThinning);
 }
 
 TEST(NormalCone, StarsThatMeetThemselvesHaveNoAxis) {
   RandomStars next_star(4);
   int meeting = 0;
-  for (int i = 0; i < 800; ++i) {
+  for (int i = 0; i < 800 / kThinning; ++i) {
     const MovingStar star = next_star(0.9);
     if (!meets_itself(star, kMoments) && !meets_itself(star, kMoments / 2)) continue;
     ++meeting;
     ASSERT_FALSE(is_known(find_cone_axis(star))) << "star " << i;
   }
-  EXPECT_GT(meeting, 100);
+  EXPECT_GT(meeting, 100 / kThinning);
 }
 
 TEST(NormalCone, GentleStarsHaveAnAxisAlongTheirNormal) {

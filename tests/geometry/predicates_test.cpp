@@ -22,7 +22,7 @@ void for_random_points(int cases, const Check& check) {
   for (const LatticePoints::Kind& kind : lattice_kinds()) {
     SCOPED_TRACE(kind.name);
     LatticePoints point(kind, kSeed);
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < cases / kThinning; ++i) {
       std::array<Vec3, kCount> points;
       for (Vec3& p : points) p = point();
       check(points);
@@ -39,7 +39,7 @@ TEST(Predicates, Orient3dHasTheSignOfTheRationalDeterminant) {
     ASSERT_EQ(orient3d(p[0], p[1], p[2], p[3]), expected);
     ASSERT_EQ(exact_orient3d(p[0], p[1], p[2], p[3]), expected);
   });
-  for (const int sign : {-1, 0, 1}) EXPECT_GT(seen[sign], 1000) << "the cases do not try sign " << sign;
+  for (const int sign : {-1, 0, 1}) EXPECT_GT(seen[sign], 1000 / kThinning) << "the cases do not try sign " << sign;
 }
 
 TEST(Predicates, Orient3dOfAPointRoundedOntoThePlane) {
@@ -104,7 +104,7 @@ TEST(Predicates, CollinearPointsAreToldFromNearlyCollinearOnes) {
     ASSERT_EQ(are_collinear(p[0], p[1], p[2]), expected);
     ASSERT_EQ(projection_axis(p[0], p[1], p[2]) < 0, expected);
   });
-  EXPECT_GT(collinear, 1000);
+  EXPECT_GT(collinear, 1000 / kThinning);
 }
 
 TEST(Predicates, CollinearInTwoProjectionsIsNotCollinear) {
@@ -126,8 +126,8 @@ TEST(Predicates, SectorIsTouchedOnTheWayAsTheRationalMomentSays) {
     ASSERT_EQ(touches_sector_on_the_way(b, a, c, x, x_new), expected) << "the sector has no first side";
     ASSERT_EQ(touches_sector_on_the_way(a, b, c, x_new, x), expected) << "the moment is the same on the way back";
   });
-  EXPECT_GT(seen[true], 500);
-  EXPECT_GT(seen[false], 500);
+  EXPECT_GT(seen[true], 500 / kThinning);
+  EXPECT_GT(seen[false], 500 / kThinning);
 }
 
 }  // namespace

@@ -10,6 +10,13 @@
 
 namespace smopt::testing {
 
+/// The sanitizers make rational arithmetic, which allocates all the time, ten times slower: they get one case of this many.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr int kThinning = 6;
+#else
+inline constexpr int kThinning = 1;
+#endif
+
 /// Points among which degenerate and nearly degenerate positions are frequent: the nodes of a small lattice, which may be fine or coarse,
 /// far from the origin, turned out of the axes (then coplanar only up to rounding) or shaken by single roundings.
 class LatticePoints {

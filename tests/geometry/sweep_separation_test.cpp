@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/geometry/exact_hulls.h"
+#include "tests/geometry/random_points.h"
 
 namespace smopt {
 namespace {
@@ -98,14 +99,14 @@ TEST(SweepSeparation, WhatIsClosedIsExactlyClear) {
   for (const double size : {1e-3, 1.0, 1e3}) {
     for (const double candidate_size : {0.3, 3.0, 1e4}) {
       Count count;
-      for (int i = 0; i < 300; ++i) {
+      for (int i = 0; i < 300 / kThinning; ++i) {
         const Star star = scenes.star(size, 0.05 + 0.1 * (i % 8));
         const Vec3 up = i % 3 == 0 ? scenes.vector() : Vec3(0, 0, 1e-6);
         expect_closed_are_clear(star, up, scenes.touching(star, candidate_size * size), count);
         ASSERT_FALSE(HasFatalFailure()) << "star of size " << size << ", candidate of size " << candidate_size << ", case " << i;
       }
-      EXPECT_GT(count.closed, 100) << "the test proves nothing";
-      EXPECT_GT(count.kept_open, 100);
+      EXPECT_GT(count.closed, 100 / kThinning) << "the test proves nothing";
+      EXPECT_GT(count.kept_open, 100 / kThinning);
     }
   }
 }
@@ -113,7 +114,7 @@ TEST(SweepSeparation, WhatIsClosedIsExactlyClear) {
 TEST(SweepSeparation, FlatStarsThatSlideInTheirPlaneAreJudgedSoundly) {
   RandomScenes scenes(12);
   Count count;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 500 / kThinning; ++i) {
     Star star = scenes.star(1, 0.3);
     for (Vec3& p : star.ring) p.z() = 0;
     star.displacement.z() = 0;
@@ -123,7 +124,7 @@ TEST(SweepSeparation, FlatStarsThatSlideInTheirPlaneAreJudgedSoundly) {
     expect_closed_are_clear(star, Vec3::UnitZ(), candidate, count);
     ASSERT_FALSE(HasFatalFailure()) << "case " << i;
   }
-  EXPECT_GT(count.closed, 100);
+  EXPECT_GT(count.closed, 100 / kThinning);
 }
 
 TEST(SweepSeparation, CoordinatesThatOverflowInSinglePrecisionAreNeverClosedWrongly) {
@@ -174,7 +175,7 @@ TEST(SweepSeparation, SheetsFacingTheStarAreClearedAtOnce) {
 TEST(SweepSeparation, MostOfWhatIsClearByATenthIsCleared) {
   RandomScenes scenes(16);
   int clear = 0, cleared = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 1000 / kThinning; ++i) {
     const Star star = scenes.star(1, 0.3);
     const Vec3 middle = 1.2 * scenes.vector();
     const Corners candidate{middle + 0.5 * scenes.vector(), middle + 0.5 * scenes.vector(), middle + 0.5 * scenes.vector()};
@@ -188,7 +189,7 @@ TEST(SweepSeparation, MostOfWhatIsClearByATenthIsCleared) {
       cleared += static_cast<int>(!separation.is_open(k));
     }
   }
-  EXPECT_GT(clear, 1000);
+  EXPECT_GT(clear, 1000 / kThinning);
   EXPECT_GE(cleared, clear * 95 / 100);
 }
 

@@ -19,7 +19,7 @@ using namespace testing;
 
 constexpr std::uint32_t kSeed = 97;
 /// Cases of each kind of lattice and each number of shared corners.
-constexpr int kCases = 250;
+constexpr int kCases = 250 / kThinning;
 
 /// A triangle and a sweep, and the corners that they share.
 struct Encounter {
@@ -107,7 +107,8 @@ void expect_agreement_where_the_start_is_free(bool is_flat) {
   });
   for (std::size_t shared = 0; shared <= 2; ++shared)
     for (const bool expected : {false, true})
-      EXPECT_GT((seen[{shared, expected}]), 30) << shared << " shared: too few cases that " << (expected ? "meet" : "stay apart");
+      EXPECT_GT((seen[{shared, expected}]), 30 / kThinning)
+          << shared << " shared: too few cases that " << (expected ? "meet" : "stay apart");
 }
 
 TEST(SweptTriangle, IsMetWhereTheTetrahedronIs) {
@@ -125,7 +126,7 @@ TEST(SweptTriangle, ContactWithAnotherFaceCountsWhateverTouchesTheStart) {
     ++met;
     EXPECT_TRUE(meets_sweep(e.triangle, e.shared, e.sweep));
   });
-  EXPECT_GT(met, 500);
+  EXPECT_GT(met, 500 / kThinning);
 }
 
 const SweptTriangle kSweep{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 4, 4}};
