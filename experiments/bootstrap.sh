@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by experiments/reproduce and tests/run: installs what is missing and builds a preset. Safe to repeat, quick when nothing is to do.
 
 # The packages of packages.txt that are not installed.
@@ -25,7 +26,7 @@ install_packages() {
   local missing
   missing=$(missing_packages)
   [ -n "$missing" ] || return 0
-  echo "installing:" $missing
+  echo "installing: ${missing//$'\n'/ }"
   as_root apt-get update -qq
   # shellcheck disable=SC2086  # one word a package
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing

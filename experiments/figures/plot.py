@@ -10,6 +10,7 @@ import argparse
 import json
 import pathlib
 import sys
+import textwrap
 
 try:
     import matplotlib
@@ -30,7 +31,8 @@ STYLES = {
 OTHER_STYLES = [("#009E73", "xx"), ("#D55E00", ".."), ("#CC79A7", "++"), ("#F0E442", "oo")]
 
 PNG_DPI = 150  # 1500 pixels over a figure of ten inches
-MESSAGE_WIDTH = 34  # characters of a failure's reason in a panel
+MESSAGE_WIDTH = 34  # characters a line of a failure's reason in a panel
+MESSAGE_LINES = 8
 
 THOUSANDS = matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}"))
 
@@ -39,7 +41,7 @@ def set_style():
     matplotlib.rcdefaults()  # no settings of the user's: the same picture everywhere
     matplotlib.rcParams.update({
         "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
-        "hatch.linewidth": 0.6, "svg.hashsalt": "smopt", "savefig.dpi": PNG_DPI,
+        "hatch.linewidth": 0.6, "figure.constrained_layout.w_pad": 0.08, "svg.hashsalt": "smopt", "savefig.dpi": PNG_DPI,
     })
 
 
@@ -160,9 +162,8 @@ def why_empty(record):
 def draw_histogram(axes, record, quantity, colour):
     histogram = number(record, "metrics", "after", quantity, "histogram")
     if not histogram or not histogram["counts"]:
-        text = why_empty(record)
-        axes.text(0.5, 0.5, "\n".join(text[i:i + MESSAGE_WIDTH] for i in range(0, len(text), MESSAGE_WIDTH)), transform=axes.transAxes,
-                  ha="center", va="center", fontsize=8)
+        text = textwrap.shorten(why_empty(record), MESSAGE_WIDTH * MESSAGE_LINES, placeholder=" …")
+        axes.text(0.5, 0.5, textwrap.fill(text, MESSAGE_WIDTH), transform=axes.transAxes, ha="center", va="center", fontsize=8)
         return
     edges, counts = histogram["edges"], histogram["counts"]
     axes.bar(edges[:-1], counts, [right - left for left, right in zip(edges, edges[1:])], align="edge", color=colour, edgecolor="white",
