@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "smopt/error.h"
 #include "tests/improve/hard_shapes.h"
@@ -134,20 +135,41 @@ TEST(RedundantPoints, NeverLeavesAVertexBelowValenceThree) {
   }
 }
 
+/// Vertex 4 a hundredth above the middle of 0–1, the diagonal of its ring 0-2-1-3; below, what `rest` says.
+TriangleMesh roof(std::vector<Triangle> rest) {
+  TriangleMesh mesh{{{-1, 0, 0}, {1, 0, 0}, {0, 1, -0.2}, {0, -1, -0.2}, {0, 0, 0.01}, {0, 0.3, -1}, {0, -0.3, -1}},
+                    {{4, 1, 2}, {4, 2, 0}, {4, 0, 3}, {4, 3, 1}}};
+  mesh.triangles.insert(mesh.triangles.end(), rest.begin(), rest.end());
+  return mesh;
+}
+
 TEST(RedundantPoints, RefusesADiagonalThatExistsAlready) {
-  // Vertex 4 lies on the diagonal 0–1 of its ring 0-2-1-3, and below it the edge 0–1 is there with two faces of its own.
-  const TriangleMesh mesh{{{-1, 0, 0}, {1, 0, 0}, {0, 1, -0.2}, {0, -1, -0.2}, {0, 0, 0.01}, {0, 0, -1}},
-                          {{4, 1, 2}, {4, 2, 0}, {4, 0, 3}, {4, 3, 1}, {0, 2, 5}, {2, 1, 5}, {1, 3, 5}, {3, 0, 5}}};
-  ASSERT_THAT(mesh, IsClosedManifold());
-  // First without the edge: the point goes.
-  EXPECT_EQ(without_redundant_points(mesh, {0.05, false}).report.valence4, 1U);
-  // With the edge 0–1: the lower half is closed by faces along it instead of through vertex 5.
-  const TriangleMesh with_edge{mesh.points, {{4, 1, 2}, {4, 2, 0}, {4, 0, 3}, {4, 3, 1}, {0, 2, 1}, {0, 1, 3}}};
-  ASSERT_THAT(with_edge, IsClosedManifold());
-  const auto [after, report] = without_redundant_points(with_edge, {0.05, false});
+  const RedundantPointOptions options{0.05, false};
+  // Closed by two more points that are joined to each other: the ridge 0–1 is free.
+  const TriangleMesh free = roof({{0, 2, 5}, {2, 1, 5}, {1, 3, 6}, {3, 0, 6}, {5, 1, 6}, {0, 5, 6}});
+  ASSERT_THAT(free, IsClosedManifold());
+  EXPECT_EQ(without_redundant_points(free, options).report.valence4, 1U);
+  // Closed by two pyramids on either side of an edge 0–1 of their own.
+  const TriangleMesh taken = roof({{0, 2, 5}, {2, 1, 5}, {1, 0, 5}, {1, 3, 6}, {3, 0, 6}, {0, 1, 6}});
+  ASSERT_THAT(taken, IsClosedManifold());
+  const auto [after, report] = without_redundant_points(taken, options);
   EXPECT_EQ(report.valence4, 0U);
-  EXPECT_GT(report.refused_link, 0U);
-  EXPECT_EQ(after.triangles, with_edge.triangles);
+  EXPECT_EQ(report.refused_link, 1U);
+  EXPECT_EQ(after.triangles, taken.triangles);
+}
+
+TEST(RedundantPoints, RefusesANewTriangleThatWouldTouchACorner) {
+  // The cube's triangle (0, 0, 1), (1, 1, 1), (0, 1, 1) with a raised point; a component inside the cube reaches up to the triangle.
+  TriangleMesh raised = cube();
+  const auto face = std::find(raised.triangles.begin(), raised.triangles.end(), Triangle{4, 7, 6});
+  ASSERT_NE(face, raised.triangles.end());
+  raised.points.emplace_back(0.3, 0.7, 1.01);
+  *face = {4, 7, 8};
+  raised.triangles.insert(raised.triangles.end(), {{7, 6, 8}, {6, 4, 8}});
+  const TriangleMesh diamond = translated(scaled(octahedron(), 0.125), {0.25, 0.75, 0.875});
+  const RedundantPointOptions options{0.05, false};
+  EXPECT_EQ(without_redundant_points(joined(raised, diamond), options).report.valence3, 0U);
+  EXPECT_EQ(without_redundant_points(joined(raised, translated(diamond, {0, 0, -std::ldexp(1, -40)})), options).report.valence3, 1U);
 }
 
 TEST(RedundantPoints, RefusesANewTriangleThatWouldHitAnotherSheet) {
