@@ -6,30 +6,10 @@
 
 #include "smopt/error.h"
 #include "smopt/geometry/triangle_shape.h"
+#include "smopt/mesh/edge_sides.h"
 
 namespace smopt {
 namespace {
-
-/// One side of an edge: the triangle and whether it uses the edge from the smaller to the larger vertex.
-struct EdgeSide {
-  VertexId low, high;
-  FaceId face;
-  bool is_ascending;
-};
-
-std::vector<EdgeSide> sorted_edge_sides(const TriangleMesh& mesh) {
-  std::vector<EdgeSide> sides;
-  sides.reserve(3 * mesh.triangle_count());
-  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
-    for (int i = 0; i < 3; ++i) {
-      const VertexId a = mesh.triangles[f][i], b = mesh.triangles[f][(i + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), f, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(),
-            [](const EdgeSide& s, const EdgeSide& t) { return std::tie(s.low, s.high, s.face) < std::tie(t.low, t.high, t.face); });
-  return sides;
-}
 
 /// A triangle across an edge, and whether it must be turned when this one is not (and the other way round).
 struct Neighbour {

@@ -9,6 +9,7 @@
 
 #include "smopt/error.h"
 #include "smopt/mesh/disjoint_sets.h"
+#include "smopt/mesh/edge_sides.h"
 #include "smopt/mesh/rings.h"
 #include "smopt/mesh/stars.h"
 
@@ -27,10 +28,6 @@ void find_nonfinite_vertices(const TriangleMesh& mesh, ValidityReport& report) {
   }
 }
 
-bool has_repeated_corner(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 void find_repeated_corners(const TriangleMesh& mesh, ValidityReport& report) {
   for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
     const Triangle& t = mesh.triangles[f];
@@ -38,29 +35,10 @@ void find_repeated_corners(const TriangleMesh& mesh, ValidityReport& report) {
   }
 }
 
-struct DirectedEdge {
-  VertexId low, high;
-  bool is_ascending;
-  FaceId face;
-};
-
-std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(3 * mesh.triangle_count());
-  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    if (has_repeated_corner(t)) continue;
-    for (int i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]), t[i] < t[(i + 1) % 3], f});
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const DirectedEdge& a, const DirectedEdge& b) { return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face); });
-  return edges;
-}
-
 void find_bad_edges(const TriangleMesh& mesh, ValidityReport& report) {
-  const std::vector<DirectedEdge> edges = sorted_edges(mesh);
+  const std::vector<EdgeSide> edges = sorted_edge_sides(mesh);
   for (auto it = edges.begin(); it != edges.end();) {
-    const auto end = std::find_if(it, edges.end(), [&](const DirectedEdge& e) { return e.low != it->low || e.high != it->high; });
+    const auto end = std::find_if(it, edges.end(), [&](const EdgeSide& e) { return e.low != it->low || e.high != it->high; });
     const auto uses = end - it;
     if (uses == 1) note(report.boundary_edges, "edge {}-{} (face {})", it->low, it->high, it->face);
     if (uses > 2) note(report.nonmanifold_edges, "edge {}-{} with {} faces (face {} first)", it->low, it->high, uses, it->face);
