@@ -27,4 +27,8 @@ struct ImproveReport {
 /// Cost: some microseconds a vertex.
 ImproveReport improve(TriangleMesh& mesh, const ImproveOptions& options, const ProgressCallback& progress = {});
 
+/// The stages after `prepare`, for a mesh that it has passed: redundant points and smoothing. Fills their parts of the report and appends their
+/// times.
+void improve_prepared(TriangleMesh& mesh, const ImproveOptions& options, ImproveReport& report, const ProgressCallback& progress = {});
+
 }  // namespace smopt

@@ -1,19 +1,17 @@
 #include <fmt/format.h>
 
 #include "smopt/error.h"
+#include "smopt/improve/improve.h"
 #include "smopt/improve/method.h"
-#include "smopt/improve/redundant_points.h"
-#include "smopt/improve/smoothing.h"
 
 namespace smopt {
 namespace {
 
 using Kind = MethodOption::Kind;
 
-/// The options with the defaults of the library's own structs, so that no default is written twice.
+/// The options; numbers have the defaults of the library's own structs (the tolerance is text, as it may end in "rel").
 std::vector<MethodOption> smopt_options() {
   const SmoothingOptions smoothing;
-  const RedundantPointOptions redundant;
   const auto text = [](auto value) { return fmt::format("{}", value); };
   return {
       {"rounds", Kind::integer, text(smoothing.rounds), "", "sweeps of smoothing; 0: cavities and redundant points only", {}},
@@ -81,19 +79,20 @@ SmoothingOptions parse_smoothing(const OptionValues& values) {
 }
 
 MethodReport run_smopt(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
-  const RedundantPointOptions redundant_options = parse_tolerance(values);
-  const SmoothingOptions smoothing_options = parse_smoothing(values);
+  ImproveOptions options;
+  options.deletes_redundant_points = values.text("redundant") == "delete";
+  options.redundant = parse_tolerance(values);
+  options.smoothing = parse_smoothing(values);
+  ImproveReport improved;
+  improve_prepared(mesh, options, improved, progress);
   MethodReport report;
-  const RedundantPointReport redundant = timed(report.seconds, "redundant", [&] {
-    return values.text("redundant") == "delete" ? remove_redundant_points(mesh, redundant_options, progress) : RedundantPointReport{};
-  });
-  SmoothingReport smoothing = timed(report.seconds, "smoothing", [&] { return smooth(mesh, smoothing_options, progress); });
-  report.redundant_valence3 = redundant.valence3;
-  report.redundant_valence4 = redundant.valence4;
-  report.rounds = std::move(smoothing.rounds);
-  report.moves = smoothing.moves;
-  report.stuck = smoothing.stuck;
-  report.stopped_because = smoothing.stopped_because;
+  report.redundant_valence3 = improved.redundant.valence3;
+  report.redundant_valence4 = improved.redundant.valence4;
+  report.rounds = std::move(improved.smoothing.rounds);
+  report.moves = improved.smoothing.moves;
+  report.stuck = improved.smoothing.stuck;
+  report.stopped_because = improved.smoothing.stopped_because;
+  report.seconds = std::move(improved.seconds);
   return report;
 }
 
