@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/improve/hard_shapes.h"
+#include "tests/improve/judge.h"
 #include "tests/support/shapes.h"
 
 namespace smopt::testing {
@@ -169,6 +170,33 @@ TriangleMesh fans(Random& random, double roughness) {
     mesh.triangles.insert(mesh.triangles.end(), {{point(i), point(i + 1), 0}, {point(i + 1), point(i), 1}});
   }
   return mesh;
+}
+
+TriangleMesh pleats(Random& random, double roughness) {
+  const int ring = random.integer(8, 30);
+  const double distance = random.power_of_ten(-4, 0), height = random.power_of_ten(-0.3, 0.7) * roughness;
+  TriangleMesh mesh{{{0, 0, distance}, {0, 0, -distance}}, {}};
+  const auto point = [ring](int i) { return static_cast<VertexId>(2 + i % ring); };
+  for (int i = 0; i < ring; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + random.uniform(0, 0.5)) / ring, radius = random.uniform(0.3, 1);
+    mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), random.uniform(0.3, 1) * (i % 2 == 0 ? height : -height));
+    mesh.triangles.insert(mesh.triangles.end(), {{point(i), point(i + 1), 0}, {point(i + 1), point(i), 1}});
+  }
+  while (mesh.vertex_count() < 100) mesh = with_points_on_edges(mesh, random.seed());
+  return noisy(mesh, roughness * random.power_of_ten(-6, -2) * distance, random.seed());
+}
+
+TriangleMesh crumpled(Random& random, double roughness) {
+  const TriangleMesh smooth =
+      random.coin() ? icosphere(2) : torus(1, random.uniform(0.2, 0.6), random.integer(16, 30), random.integer(6, 12));
+  const std::uint32_t seed = random.seed();
+  constexpr double kWild = 1;  // radii: certainly too much
+  double none = 0, some = kWild;
+  while (some - none > 0.03 * some) {
+    const double middle = 0.5 * (none + some);
+    (intersecting_pairs(noisy(smooth, middle, seed)).empty() ? none : some) = middle;
+  }
+  return noisy(smooth, roughness * none, seed);
 }
 
 TriangleMesh hovering_specks(Random& random, double roughness) {

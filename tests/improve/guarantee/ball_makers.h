@@ -46,6 +46,12 @@ TriangleMesh lattice(Random& random, double roughness);
 /// Two vertices with a triangle to each edge of a large ring.
 TriangleMesh fans(Random& random, double roughness);
 
+/// Two vertices close together, with a triangle to each edge of a ring that goes up and down: stars that no direction shows one-to-one.
+TriangleMesh pleats(Random& random, double roughness);
+
+/// A sphere or torus with as much noise as it bears without intersections: a little less than what makes some.
+TriangleMesh crumpled(Random& random, double roughness);
+
 /// A sphere with tetrahedra hovering 1e-10 to 1e-3 above and below its faces.
 TriangleMesh hovering_specks(Random& random, double roughness);
 

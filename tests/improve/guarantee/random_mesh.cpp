@@ -19,7 +19,7 @@ namespace {
 
 TriangleMesh two_families(Random& random, double roughness);
 
-constexpr std::array<MeshFamily, 24> kFamilies = {{
+constexpr std::array<MeshFamily, 26> kFamilies = {{
     {"noisy_sphere", noisy_sphere},
     {"noisy_torus", noisy_torus},
     {"needles", needles},
@@ -40,6 +40,8 @@ constexpr std::array<MeshFamily, 24> kFamilies = {{
     {"redundant_points", redundant_points},
     {"lattice", lattice},
     {"fans", fans},
+    {"pleats", pleats},
+    {"crumpled", crumpled},
     {"hovering_specks", hovering_specks},
     {"tetrahedra", tetrahedra},
     {"knot", knot},

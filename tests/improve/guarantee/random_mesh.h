@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,11 @@ struct MeshFamily {
   std::string_view name;
   TriangleMesh (*make)(Random& random, double roughness);
 };
+
+/// Its name, for the messages of tests.
+inline std::ostream& operator<<(std::ostream& out, const MeshFamily& family) {
+  return out << family.name;
+}
 
 /// All kinds; tests take each of them with many seeds.
 std::span<const MeshFamily> mesh_families();
