@@ -68,6 +68,7 @@ Json rounds_json(const std::vector<RoundReport>& rounds) {
                     {"accepted", round.moves.accepted},
                     {"shortened", round.moves.shortened},
                     {"refused", round.moves.refused},
+                    {"stuck", round.stuck},
                     {"longest_move", round.longest_move}});
   }
   return list;
@@ -103,6 +104,11 @@ void add_outcome(Json& report, const PreparationReport& preparation, const Metho
                      {"refused", outcome.moves.refused},
                      {"stuck", outcome.stuck}};
   report["stopped_because"] = outcome.stopped_because;
+  if (outcome.volume_before != 0) {
+    report["volume"] = {{"before_smoothing", outcome.volume_before},
+                        {"after_smoothing", outcome.volume_after},
+                        {"relative_change", outcome.volume_after / outcome.volume_before - 1}};
+  }
   report["each_round"] = rounds_json(outcome.rounds);
 }
 

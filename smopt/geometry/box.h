@@ -19,6 +19,17 @@ struct Box {
     return static_cast<bool>((low[0] <= other.high[0]) & (low[1] <= other.high[1]) & (low[2] <= other.high[2]) & (other.low[0] <= high[0]) &
                              (other.low[1] <= high[1]) & (other.low[2] <= high[2]));
   }
+  [[nodiscard]] bool contains(const Box& other) const {
+    return static_cast<bool>((low[0] <= other.low[0]) & (low[1] <= other.low[1]) & (low[2] <= other.low[2]) & (other.high[0] <= high[0]) &
+                             (other.high[1] <= high[1]) & (other.high[2] <= high[2]));
+  }
+  /// Grows to contain another box too.
+  void unite(const Box& other) {
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], other.low[i]);
+      high[i] = std::max(high[i], other.high[i]);
+    }
+  }
 };
 
 /// The next float below (above) a double: converting rounds to nearest, so one relative step of 2⁻²³ outwards is enough.

@@ -1,6 +1,7 @@
 #include "smopt/geometry/normal_cone.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "smopt/geometry/predicates.h"
 
@@ -50,19 +51,43 @@ int count_turns(const Vec3& center, const std::vector<Vec3>& ring, const Vec3& a
   return turns;
 }
 
+/// Widens the cone to hold all triangles of the star.
+void widen_to_star(NormalCone& cone, const Vec3& center, const std::vector<Vec3>& ring, double longest2) {
+  cone.squared_sine = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    widen(cone, reliable_direction((ring[i] - center).cross(ring[i + 1 < ring.size() ? i + 1 : 0] - center), longest2));
+}
+
 }  // namespace
 
-ConeAxis find_cone_axis(const MovingStar& star) {
+NormalCone cone_around(std::span<const Eigen::Vector3f> normals) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& n : normals) sum += n;
+  const float length = sum.norm();
+  if (!(length > 0)) return {};
+  NormalCone cone{{sum[0] / length, sum[1] / length, sum[2] / length}, 0};
+  for (const Eigen::Vector3f& n : normals) widen(cone, n);
+  return cone.squared_sine < NormalCone::kNoBound ? cone : NormalCone{};
+}
+
+NormalCone find_resting_cone(const Vec3& center, const std::vector<Vec3>& ring, std::span<const Eigen::Vector3f> normals) {
+  const NormalCone cone = cone_around(normals);
+  return is_known(cone) && count_turns(center, ring, axis_of(cone)) == 1 ? cone : NormalCone{};
+}
+
+NormalCone find_cone(const MovingStar& star) {
   const StarNormals from = sum_normals(star.center_from, star.ring_from), to = sum_normals(star.center_to, star.ring_to);
   const Vec3 mean = (from.sum + to.sum).normalized();
-  const ConeAxis axis{static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])};
-  if (!mean.allFinite() || !is_known(axis)) return {};
+  NormalCone cone{{static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])}, NormalCone::kNoBound};
+  if (!mean.allFinite() || !is_known(cone)) return {};
   const double margin = kConeMarginRel * std::max(from.longest2, to.longest2);
-  const Vec3 direction = to_vector(axis);
+  const Vec3 direction = axis_of(cone);
   const bool is_cone = is_positive(star.center_to, star.ring_to, direction, margin, false) &&
                        is_positive(star.center_from, star.ring_from, direction, margin, true) &&
                        count_turns(star.center_to, star.ring_to, direction) == 1;
-  return is_cone ? axis : ConeAxis{};
+  if (!is_cone) return {};
+  widen_to_star(cone, star.center_to, star.ring_to, to.longest2);
+  return cone;
 }
 
 }  // namespace smopt

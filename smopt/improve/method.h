@@ -50,6 +50,8 @@ struct MethodReport {
   std::vector<RoundReport> rounds;
   MoveCounts moves;
   std::size_t stuck = 0;
+  double volume_before = 0;  ///< enclosed before smoothing, Å³; both 0 where a method does not say
+  double volume_after = 0;
   std::string stopped_because;
   StageTimes seconds;  ///< at least "smoothing"
 };

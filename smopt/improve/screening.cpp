@@ -1,14 +1,23 @@
 #include "smopt/improve/screening.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
+#include <numeric>
 
 namespace smopt {
+namespace {
+
+/// Triangles a task.
+constexpr std::size_t kGrain = 8192;
+
+}  // namespace
 
 ActiveSet Screening::of_all() {
-  ActiveSet set;
-  for (FaceId f = 0; f < mesh_.triangle_count(); ++f) examine(f, set);
-  finish(set);
-  return set;
+  std::vector<FaceId> faces(mesh_.triangle_count());
+  std::iota(faces.begin(), faces.end(), FaceId{0});
+  return of_faces(faces);
 }
 
 ActiveSet Screening::of_stars(const std::vector<VertexId>& vertices) {
@@ -16,31 +25,35 @@ ActiveSet Screening::of_stars(const std::vector<VertexId>& vertices) {
   for (const VertexId v : vertices) faces.insert(faces.end(), rings_.faces(v).begin(), rings_.faces(v).end());
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  ActiveSet set;
-  for (const FaceId f : faces) examine(f, set);
-  finish(set);
-  return set;
+  return of_faces(faces);
 }
 
-void Screening::examine(FaceId f, ActiveSet& set) {
-  const Triangle& t = mesh_.triangles[f];
-  if (!test_.is_low(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]])) return;
-  ++set.low_quality;
-  for (const VertexId v : t) {
-    activate(v, set);
-    for (const VertexId w : rings_.vertices(v)) activate(w, set);
+ActiveSet Screening::of_faces(const std::vector<FaceId>& faces) {
+  std::vector<char> is_low(faces.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kGrain), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Triangle& t = mesh_.triangles[faces[i]];
+      is_low[i] = test_.is_low(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]) ? 1 : 0;
+    }
+  });
+  ActiveSet set;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (is_low[i] == 0) continue;
+    ++set.low_quality;
+    for (const VertexId v : mesh_.triangles[faces[i]]) {
+      activate(v, set);
+      for (const VertexId w : rings_.vertices(v)) activate(w, set);
+    }
   }
+  std::sort(set.vertices.begin(), set.vertices.end());
+  for (const VertexId v : set.vertices) is_active_[v] = 0;
+  return set;
 }
 
 void Screening::activate(VertexId v, ActiveSet& set) {
   if (is_active_[v] != 0) return;
   is_active_[v] = 1;
   set.vertices.push_back(v);
-}
-
-void Screening::finish(ActiveSet& set) {
-  std::sort(set.vertices.begin(), set.vertices.end());
-  for (const VertexId v : set.vertices) is_active_[v] = 0;
 }
 
 }  // namespace smopt

@@ -20,15 +20,14 @@ class Screening {
   Screening(const TriangleMesh& mesh, const VertexRings& rings, const QualityThresholds& thresholds)
       : mesh_(mesh), rings_(rings), test_(thresholds), is_active_(mesh.vertex_count(), 0) {}
 
-  /// Looks at every triangle. Cost: O(n).
+  /// Looks at every triangle. Cost: O(n), all cores.
   ActiveSet of_all();
   /// Looks at the triangles around the given vertices only. Cost: O(given).
   ActiveSet of_stars(const std::vector<VertexId>& vertices);
 
  private:
-  void examine(FaceId f, ActiveSet& set);
+  ActiveSet of_faces(const std::vector<FaceId>& faces);
   void activate(VertexId v, ActiveSet& set);
-  void finish(ActiveSet& set);
 
   const TriangleMesh& mesh_;
   const VertexRings& rings_;

@@ -5,88 +5,16 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "smopt/error.h"
-#include "smopt/improve/move_guard.h"
 #include "smopt/improve/screening.h"
 #include "smopt/improve/sweep_schedule.h"
+#include "smopt/improve/vertex_mover.h"
+#include "smopt/mesh/orientation.h"
 #include "smopt/mesh/rings.h"
 
 namespace smopt {
 namespace {
-
-/// A step shorter than this part of the longest spoke is none: its effect on any angle is below 1e-7 rad, and without a bound the fixed
-/// point would be approached for ever.
-constexpr double kNegligibleStepRel = 1e-7;
-/// What became of a visit to a vertex.
-enum class Visit { unmoved, moved, moved_shortened, refused, postponed };
-
-/// Moves single vertices; each thread has one.
-class VertexMover {
- public:
-  VertexMover(GuardedSurface& surface, const SmoothingOptions& options)
-      : surface_(surface),
-        options_(options),
-        guard_(surface),
-        bad_squared_sine_(std::pow(std::sin(options.thresholds.min_angle_deg * std::numbers::pi / 180), 2)) {}
-
-  /// Moves v as far as it may go; postpones when that needs more than `region` (null: the whole surface is this thread's).
-  Visit visit(VertexId v, const TriangleGrid::CubeRange* region) {
-    const Vec3 from = surface_.mesh.points[v];
-    const Vec3 step = proposed_step(options_.step, from, surface_.rings.vertices(v), surface_.mesh.points);
-    moved_by_ = 0;
-    if (is_negligible(v, step)) return Visit::unmoved;
-    guard_.select(v, from + step);
-    if (region != nullptr && !guard_.is_within(*region)) return Visit::postponed;
-    double beta = 1;
-    for (int halving = 0; halving <= options_.halvings; ++halving, beta *= 0.5) {
-      const Vec3 target = from + beta * step;
-      if (options_.keeps_angles && makes_bad_angle_worse(v, target)) continue;
-      if (!guard_.is_move_ok(target)) continue;
-      if (region != nullptr && guard_.needs_new_block()) return Visit::postponed;
-      guard_.apply();
-      moved_by_ = beta * step.norm();
-      return halving > 0 ? Visit::moved_shortened : Visit::moved;
-    }
-    return Visit::refused;
-  }
-
-  /// Length of the last move, Å.
-  [[nodiscard]] double moved_by() const { return moved_by_; }
-
- private:
-  [[nodiscard]] bool makes_bad_angle_worse(VertexId v, const Vec3& target) const {
-    const double after = squared_sine_in_star(v, target);
-    return after < bad_squared_sine_ && after < squared_sine_in_star(v, surface_.mesh.points[v]);
-  }
-
-  /// Of the smallest angle in the star of v, if v were at `position`.
-  [[nodiscard]] double squared_sine_in_star(VertexId v, const Vec3& position) const {
-    const std::span<const VertexId> ring = surface_.rings.vertices(v);
-    double smallest = 1;
-    VertexId before = ring.back();
-    for (const VertexId w : ring) {
-      smallest = std::min(smallest, squared_sine_of_smallest_angle(position, surface_.mesh.points[before], surface_.mesh.points[w]));
-      before = w;
-    }
-    return smallest;
-  }
-
-  [[nodiscard]] bool is_negligible(VertexId v, const Vec3& step) const {
-    double longest2 = 0;
-    for (const VertexId w : surface_.rings.vertices(v))
-      longest2 = std::max(longest2, (surface_.mesh.points[w] - surface_.mesh.points[v]).squaredNorm());
-    return step.squaredNorm() <= kNegligibleStepRel * kNegligibleStepRel * longest2;
-  }
-
-  GuardedSurface& surface_;
-  const SmoothingOptions& options_;
-  MoveGuard guard_;
-  double bad_squared_sine_;  // of the threshold angle
-  double moved_by_ = 0;
-};
 
 class Smoother {
  public:
@@ -94,20 +22,21 @@ class Smoother {
       : options_(options),
         progress_(progress),
         surface_(mesh, rings),
-        movers_([this] { return VertexMover(surface_, options_); }),
+        movers_([this] { return VertexMover(surface_, options_, GuardFactory(options_.guard, surface_, options_.vicinity)()); }),
         is_stuck_(mesh.vertex_count(), 0) {}
 
   SmoothingReport run() {
+    report_.volume_before = signed_volume(surface_.mesh);
     Screening screening(surface_.mesh, surface_.rings, options_.thresholds);
     sweep(SweepSchedule(surface_.grid, surface_.mesh, vertices_with_star()));
     ActiveSet active = screening.of_all();
     while (!is_finished(active)) {
-      const SweepSchedule schedule(surface_.grid, surface_.mesh, active.vertices);
-      for (int i = 0; i < options_.rounds_per_screening && has_rounds_left(); ++i) sweep(schedule);
+      sweep_until_screening(SweepSchedule(surface_.grid, surface_.mesh, active.vertices));
       active = screening.of_stars(active.vertices);
     }
     report_.low_quality = active.low_quality;
     report_.stuck = static_cast<std::size_t>(std::count(is_stuck_.begin(), is_stuck_.end(), 1));
+    report_.volume_after = signed_volume(surface_.mesh);
     return std::move(report_);
   }
 
@@ -125,49 +54,84 @@ class Smoother {
   bool is_finished(const ActiveSet& active) {
     if (active.low_quality == 0)
       report_.stopped_because = "quality reached";
-    else if (report_.rounds.back().moves.accepted == 0)
+    else if (has_come_to_rest_)
       report_.stopped_because = "nothing moved";
     else if (!has_rounds_left())
       report_.stopped_because = "rounds";
     return !report_.stopped_because.empty();
   }
 
-  /// The tiles of one colour after the other, then what had to wait.
-  void sweep(const SweepSchedule& schedule) {
+  /// Sweeps as often as the options say, or until nothing moves any more.
+  void sweep_until_screening(const SweepSchedule& schedule) {
+    for (int i = 0; i < options_.rounds_per_screening && has_rounds_left(); ++i) {
+      const bool has_moved = sweep(schedule);
+      has_come_to_rest_ = i == 0 && !has_moved;
+      if (!has_moved) return;
+    }
+  }
+
+  /// The tiles of one colour after the other, then what had to wait. Returns whether anything moved.
+  bool sweep(const SweepSchedule& schedule) {
+    propose_steps(schedule);
     std::vector<RoundReport> of_tiles(schedule.tile_count());
     std::vector<std::vector<VertexId>> postponed(schedule.tile_count());
     for (int color = 0; color < SweepSchedule::kColors; ++color) {
       report_progress(progress_, "smoothing", done(static_cast<double>(color) / SweepSchedule::kColors));
       const std::span<const SweepSchedule::Tile> tiles = schedule.tiles(color);
-      tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+      for_each_index(tiles.size(), [&](std::size_t i) {
         const std::size_t index = schedule.index_of(tiles[i]);
-        visit_all(schedule.vertices(tiles[i]), &tiles[i].region, of_tiles[index], postponed[index]);
+        for (const std::span<const VertexId> group : tiles[i].groups) visit_all(group, &tiles[i].region, of_tiles[index], postponed[index]);
       });
     }
     RoundReport round;
-    round.active = schedule.vertex_count();
     std::vector<VertexId> none;
-    for (const std::vector<VertexId>& vertices : postponed) visit_all(vertices, nullptr, round, none);
+    for (const std::vector<VertexId>& vertices : postponed)
+      for (const VertexId& v : vertices) visit_all({&v, 1}, nullptr, round, none);
     for (const RoundReport& tile : of_tiles) add(round, tile);
-    report_.moves.accepted += round.moves.accepted;
-    report_.moves.shortened += round.moves.shortened;
-    report_.moves.refused += round.moves.refused;
+    round.active = schedule.vertices().size();
+    add(report_.moves, round.moves);
     report_.rounds.push_back(round);
+    return round.moves.accepted > 0;
+  }
+
+  /// By all threads where the guard can share the surface, else by one.
+  template <class Work>
+  void for_each_index(std::size_t count, const Work& work) {
+    if (options_.guard == GuardKind::exact) return tbb::parallel_for(std::size_t{0}, count, work);
+    for (std::size_t i = 0; i < count; ++i) work(i);
+  }
+
+  void propose_steps(const SweepSchedule& schedule) {
+    if (options_.order != SweepOrder::jacobi) return;
+    steps_.resize(surface_.mesh.vertex_count());
+    tbb::parallel_for(std::size_t{0}, schedule.vertices().size(), [&](std::size_t i) {
+      const VertexId v = schedule.vertices()[i];
+      steps_[v] = movers_.local().proposed_step_of(v);
+    });
+  }
+
+  static void add(MoveCounts& sum, const MoveCounts& part) {
+    sum.accepted += part.accepted;
+    sum.shortened += part.shortened;
+    sum.refused += part.refused;
   }
 
   static void add(RoundReport& round, const RoundReport& part) {
-    round.moves.accepted += part.moves.accepted;
-    round.moves.shortened += part.moves.shortened;
-    round.moves.refused += part.moves.refused;
+    add(round.moves, part.moves);
+    round.stuck += part.stuck;
     round.longest_move = std::max(round.longest_move, part.longest_move);
   }
 
   void visit_all(std::span<const VertexId> vertices, const TriangleGrid::CubeRange* region, RoundReport& round,
                  std::vector<VertexId>& postponed) {
     VertexMover& mover = movers_.local();
+    mover.enter(vertices, region);
     for (const VertexId v : vertices) {
-      if (is_stuck_[v] != 0) continue;
-      const Visit outcome = mover.visit(v, region);
+      if (is_stuck_[v] != 0) {
+        ++round.stuck;
+        continue;
+      }
+      const Visit outcome = mover.visit(v, options_.order == SweepOrder::jacobi ? steps_[v] : mover.proposed_step_of(v));
       if (outcome == Visit::postponed) postponed.push_back(v);
       if (outcome == Visit::refused) {
         is_stuck_[v] = 1;
@@ -191,7 +155,9 @@ class Smoother {
   const ProgressCallback& progress_;
   GuardedSurface surface_;
   tbb::enumerable_thread_specific<VertexMover> movers_;
-  std::vector<char> is_stuck_;  // per vertex: refused, and nothing around it has moved since
+  std::vector<char> is_stuck_;     // per vertex: refused, and nothing around it has moved since
+  std::vector<Vec3> steps_;        // per vertex: proposed at the beginning of the sweep (Jacobi only)
+  bool has_come_to_rest_ = false;  // a newly chosen active set has not moved
   SmoothingReport report_;
 };
 
@@ -200,6 +166,7 @@ void require_valid(const SmoothingOptions& options) {
   if (options.rounds < 0) throw InvalidOption(fmt::format("rounds: expected at least 0, got {}", options.rounds));
   if (options.rounds_per_screening < 1)
     throw InvalidOption(fmt::format("rounds-per-screening: expected at least 1, got {}", options.rounds_per_screening));
+  if (options.vicinity < 1) throw InvalidOption(fmt::format("vicinity: expected at least 1, got {}", options.vicinity));
   if (options.halvings < 0) throw InvalidOption(fmt::format("halvings: expected at least 0, got {}", options.halvings));
   if (!(edge_ratio >= 0 && edge_ratio < 1)) throw InvalidOption(fmt::format("edge-ratio: expected a number in [0, 1), got {}", edge_ratio));
   if (!(min_angle_deg >= 0 && min_angle_deg < 60))
@@ -213,6 +180,7 @@ SmoothingReport smooth(TriangleMesh& mesh, const SmoothingOptions& options, cons
   if (options.rounds == 0) {
     SmoothingReport report;
     report.stopped_because = "rounds";
+    report.volume_before = report.volume_after = signed_volume(mesh);
     return report;
   }
   const std::optional<VertexRings> rings = build_rings(mesh);

@@ -5,11 +5,18 @@
 #include <vector>
 
 #include "smopt/geometry/triangle_shape.h"
+#include "smopt/improve/move_guard.h"
 #include "smopt/improve/step_rule.h"
 #include "smopt/mesh/triangle_mesh.h"
 #include "smopt/progress.h"
 
 namespace smopt {
+
+/// When the steps of a sweep are proposed; they are made one by one, in the order of `SweepSchedule`, either way.
+enum class SweepOrder {
+  gauss_seidel,  ///< each from where its neighbours are by then; the paper's
+  jacobi         ///< all from where the sweep began
+};
 
 /// How the surface is smoothed; the defaults are the paper's where it gives one.
 struct SmoothingOptions {
@@ -18,6 +25,9 @@ struct SmoothingOptions {
   QualityThresholds thresholds;        ///< which triangles are smoothed again; the paper gives no number, these reproduce its figures
   int halvings = 10;                   ///< how often a refused step is halved before the vertex stays; ≥ 0; the paper has no bound
   StepRule step = StepRule::umbrella;  ///< the paper's
+  SweepOrder order = SweepOrder::gauss_seidel;
+  GuardKind guard = GuardKind::exact;  ///< the others guarantee nothing and use one thread
+  int vicinity = 2;                    ///< rings of triangles that the paper's guard looks at; ≥ 1; the paper gives no number
   /// Whether a step is refused (and halved) when it would leave the star with an angle below the threshold and smaller than its smallest
   /// was. Not in the paper. Without it, repeated steps draw thin necks of the surface out into needles of hundredths of a degree, which
   /// never leave the active set and which TetGen does not mesh.
@@ -34,12 +44,15 @@ struct MoveCounts {
 struct RoundReport {
   std::size_t active = 0;  ///< vertices visited
   MoveCounts moves;
+  std::size_t stuck = 0;    ///< of the active, passed over: refused before, and nothing around them has moved since
   double longest_move = 0;  ///< Å
 };
 
 struct SmoothingReport {
   std::vector<RoundReport> rounds;
-  MoveCounts moves;             ///< over all rounds
+  MoveCounts moves;          ///< over all rounds
+  double volume_before = 0;  ///< enclosed, Å³
+  double volume_after = 0;
   std::size_t stuck = 0;        ///< vertices whose last move was refused and around which nothing has moved since
   std::size_t low_quality = 0;  ///< triangles below the thresholds when it stopped (of those screened last)
   std::string stopped_because;  ///< "quality reached", "nothing moved" or "rounds"
@@ -49,9 +62,10 @@ struct SmoothingReport {
 ///
 /// Modified Laplacian smoothing (Liu et al. 2017, section 0.3, algorithm 3): one sweep over all vertices, then sweeps over the corners of
 /// low-quality triangles and their neighbours, which are chosen anew every few sweeps. The step starts whole and is halved while
-/// `MoveGuard` refuses the move, or while it would make a bad angle worse (`keeps_angles`). Vertices are visited in the order of
-/// `SweepSchedule` and moved at once (Gauss–Seidel). A vertex that is refused leaves the active set until something around it moves.
-/// Connectivity does not change; no pair of triangles intersects afterwards that did not before.
+/// the guard refuses the move, or while it would make a bad angle worse (`keeps_angles`). Vertices are visited in the order of `SweepSchedule`. A
+/// vertex that is refused leaves the active set until something around it moves. It ends when no low-quality triangle is left, when all rounds
+/// are used, or with a round in which a newly chosen active set did not move at all.
+/// Connectivity does not change; with the exact guard, no pair of triangles intersects afterwards that did not before.
 ///
 /// \param mesh  positions in Å, changed in place.
 /// \pre mesh is a closed, oriented manifold (see `check_validity`).

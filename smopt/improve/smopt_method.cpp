@@ -40,6 +40,19 @@ std::vector<MethodOption> smopt_options() {
        "",
        "where a vertex wants to go (umbrella: the paper's)",
        {"umbrella", "volume-preserving", "tangential"}},
+      {"order",
+       Kind::choice,
+       "gauss-seidel",
+       "",
+       "steps are proposed one by one (gauss-seidel: the paper's) or all from where the sweep began (jacobi)",
+       {"gauss-seidel", "jacobi"}},
+      {"guard",
+       Kind::choice,
+       "exact",
+       "",
+       "exact: the whole surface; paper: the paper's test of the neighbourhood; none; the last two guarantee nothing",
+       {"exact", "paper", "none"}},
+      {"vicinity", Kind::integer, text(smoothing.vicinity), "rings", "how far --guard paper looks", {}},
       {"bad-angles",
        Kind::choice,
        smoothing.keeps_angles ? "keep" : "ignore",
@@ -54,6 +67,11 @@ std::vector<MethodOption> smopt_options() {
 StepRule parse_step(const std::string& text) {
   if (text == "volume-preserving") return StepRule::volume_preserving;
   return text == "tangential" ? StepRule::tangential : StepRule::umbrella;
+}
+
+GuardKind parse_guard(const std::string& text) {
+  if (text == "paper") return GuardKind::paper;
+  return text == "none" ? GuardKind::none : GuardKind::exact;
 }
 
 RedundantPointOptions parse_tolerance(const OptionValues& values) {
@@ -75,6 +93,9 @@ SmoothingOptions parse_smoothing(const OptionValues& values) {
   options.halvings = values.integer("halvings", 0);
   options.keeps_angles = values.text("bad-angles") == "keep";
   options.step = parse_step(values.text("step"));
+  options.order = values.text("order") == "jacobi" ? SweepOrder::jacobi : SweepOrder::gauss_seidel;
+  options.guard = parse_guard(values.text("guard"));
+  options.vicinity = values.integer("vicinity", 1);
   return options;
 }
 
@@ -91,6 +112,8 @@ MethodReport run_smopt(TriangleMesh& mesh, const OptionValues& values, const Pro
   report.rounds = std::move(improved.smoothing.rounds);
   report.moves = improved.smoothing.moves;
   report.stuck = improved.smoothing.stuck;
+  report.volume_before = improved.smoothing.volume_before;
+  report.volume_after = improved.smoothing.volume_after;
   report.stopped_because = improved.smoothing.stopped_because;
   report.seconds = std::move(improved.seconds);
   return report;

@@ -81,6 +81,15 @@ std::vector<double> component_volumes(const TriangleMesh& mesh, const Components
   return volumes;
 }
 
+double signed_volume(const TriangleMesh& mesh) {
+  double sextuple = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3& origin = mesh.points[mesh.triangles.front()[0]];
+    sextuple += sextuple_volume(mesh.points[a] - origin, mesh.points[b] - origin, mesh.points[c] - origin);
+  }
+  return sextuple / 6;
+}
+
 void reverse_orientation(TriangleMesh& mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
 }

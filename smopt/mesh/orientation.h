@@ -16,6 +16,9 @@ std::size_t orient_consistently(TriangleMesh& mesh);
 /// Enclosed volume of each component, Å³: positive where its normals point outwards. \pre closed and consistently oriented.
 std::vector<double> component_volumes(const TriangleMesh& mesh, const Components& components);
 
+/// Enclosed volume of the whole mesh, Å³: cavities count negative. \pre closed and consistently oriented. Cost: O(n).
+double signed_volume(const TriangleMesh& mesh);
+
 /// Turns every triangle round.
 void reverse_orientation(TriangleMesh& mesh);
 

@@ -202,9 +202,7 @@ TEST(Smoothing, MovesTheFirstVertexOfTheScheduleToTheMeanOfItsNeighboursWhenNoth
   std::vector<VertexId> all(mesh.vertex_count());
   std::iota(all.begin(), all.end(), 0U);
   const SweepSchedule schedule(TriangleGrid(mesh.points, mesh.triangles), mesh, all);
-  int color = 0;
-  while (schedule.tiles(color).empty()) ++color;
-  const VertexId first = schedule.vertices(schedule.tiles(color)[0])[0];
+  const VertexId first = schedule.vertices().front();
   Vec3 mean = Vec3::Zero();
   for (const VertexId w : rings.vertices(first)) mean += mesh.points[w] / rings.valence(first);
   SmoothingOptions options;

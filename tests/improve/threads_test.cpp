@@ -50,10 +50,11 @@ TEST(SweepSchedule, VisitsEveryVertexOnceAndKeepsRegionsOfAColourApart) {
     const auto tiles = schedule.tiles(color);
     EXPECT_GT(tiles.size(), 1U);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-      const auto vertices = schedule.vertices(tiles[i]);
-      EXPECT_TRUE(std::is_sorted(vertices.begin(), vertices.end()));
-      visited.insert(vertices.begin(), vertices.end());
-      for (const VertexId v : vertices) EXPECT_TRUE(tiles[i].region.contains(grid.cubes_of(grid.box_of(mesh.points[v], mesh.points[v]))));
+      for (const std::span<const VertexId> group : tiles[i].groups) {
+        EXPECT_TRUE(std::is_sorted(group.begin(), group.end()));
+        visited.insert(group.begin(), group.end());
+        for (const VertexId v : group) EXPECT_TRUE(tiles[i].region.contains(grid.cubes_of(grid.box_of(mesh.points[v], mesh.points[v]))));
+      }
       for (std::size_t j = 0; j < i; ++j) {
         bool is_apart = false;
         for (int axis = 0; axis < 3; ++axis)

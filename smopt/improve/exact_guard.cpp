@@ -1,0 +1,289 @@
+#include "smopt/improve/exact_guard.h"
+
+#include <algorithm>
+
+#include "smopt/geometry/predicates.h"
+#include "smopt/geometry/swept_triangle.h"
+
+namespace smopt {
+namespace {
+
+/// Up to this valence a linear search of the ring is the fastest way to find a vertex on it.
+constexpr std::size_t kLinearSearch = 64;
+
+Eigen::Vector3f single(const NormalCone& cone) {
+  return {cone.axis[0], cone.axis[1], cone.axis[2]};
+}
+
+}  // namespace
+
+void ExactGuard::enter(std::span<const VertexId> group, const TriangleGrid::CubeRange* region) {
+  group_ = group;
+  region_ = region;
+  surroundings_.clear();
+}
+
+void ExactGuard::select(const StarMove& move, const Vec3& reach) {
+  move_ = &move;
+  // The box is made from the coordinates themselves: sums of differences may be off by a unit in the last place.
+  Vec3 low = reach.cwiseMin(move.position()), high = reach.cwiseMax(move.position());
+  for (const Vec3& p : move.ring_points()) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  reach_box_ = surface_.grid.box_of(low, high);
+  ring_order_.clear();
+}
+
+bool ExactGuard::is_within_region() const {
+  if (region_ == nullptr) return true;
+  const std::span<const FaceId> faces = move_->faces();
+  return region_->contains(surface_.grid.cubes_of(reach_box_)) &&
+         std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return region_->contains(surface_.grid.listing(f)); });
+}
+
+bool ExactGuard::is_ok() {
+  judge_star();
+  if (!is_star_ok()) return false;
+  judge_ring_cones();
+  if (!surroundings_.covers(reach_box_)) fetch_surroundings();
+  if (!is_clear_of_surroundings()) return false;
+  compute_boxes();
+  return true;
+}
+
+void ExactGuard::fetch_surroundings() {
+  Box space = reach_box_;
+  for (const VertexId v : group_) space.unite(star_box(v));
+  if (region_ != nullptr && !region_->contains(surface_.grid.cubes_of(space))) space = reach_box_;
+  surroundings_.gather(surface_.grid, surface_.mesh.points, surface_.mesh.triangles, space, move_->position());
+}
+
+Box ExactGuard::star_box(VertexId v) const {
+  Vec3 low = surface_.mesh.points[v], high = low;
+  for (const VertexId w : surface_.rings.vertices(v)) {
+    low = low.cwiseMin(surface_.mesh.points[w]);
+    high = high.cwiseMax(surface_.mesh.points[w]);
+  }
+  return surface_.grid.box_of(low, high);
+}
+
+void ExactGuard::judge_star() {
+  is_separation_ready_ = false;
+  at_target_.directions.clear();
+  for (const Vec3& n : move_->target_normals()) at_target_.directions.push_back(reliable_direction(n, move_->target_longest2()));
+}
+
+bool ExactGuard::is_star_ok() {
+  const NormalCone& known = surface_.cones[move_->vertex()];
+  const Eigen::Vector3f axis = single(known);
+  at_target_.is_projected =
+      known.squared_sine < NormalCone::kNoBound && std::all_of(at_target_.directions.begin(), at_target_.directions.end(),
+                                                               [&](const auto& d) { return d.dot(axis) > 2 * kConeRounding; });
+  if (at_target_.is_projected) {
+    at_target_.cone = cone_around(at_target_.directions);
+    if (!is_known(at_target_.cone)) at_target_.cone = {known.axis, NormalCone::kNoBound};
+    return true;
+  }
+  at_target_.cone = find_own_cone();
+  return is_known(at_target_.cone) || (is_fold_free_at_target() && is_fold_free_on_the_way());
+}
+
+NormalCone ExactGuard::find_own_cone() {
+  scratch_star_.center_from = move_->position();
+  scratch_star_.center_to = move_->target();
+  scratch_star_.ring_from = move_->ring_points();
+  scratch_star_.ring_to = move_->ring_points();
+  return find_cone(scratch_star_);
+}
+
+NormalCone ExactGuard::find_ring_cone(std::size_t slot) {
+  const VertexId center = move_->ring()[slot];
+  scratch_star_.center_from = scratch_star_.center_to = surface_.mesh.points[center];
+  scratch_star_.ring_from.clear();
+  scratch_star_.ring_to.clear();
+  for (const VertexId w : surface_.rings.vertices(center)) {
+    scratch_star_.ring_from.push_back(surface_.mesh.points[w]);
+    scratch_star_.ring_to.push_back(w == move_->vertex() ? move_->target() : surface_.mesh.points[w]);
+  }
+  return find_cone(scratch_star_);
+}
+
+void ExactGuard::judge_ring_cones() {
+  at_target_.ring_cones.resize(move_->valence());
+  for (std::size_t k = 0; k < move_->valence(); ++k) {
+    NormalCone cone = surface_.cones[move_->ring()[k]];
+    widen(cone, at_target_.directions[k]);
+    widen(cone, at_target_.directions[move_->previous(k)]);
+    at_target_.ring_cones[k] = cone.squared_sine < NormalCone::kNoBound ? cone : find_ring_cone(k);
+  }
+}
+
+bool ExactGuard::is_ring_vertex_seen_along(VertexId w, const Eigen::Vector3f& axis) const {
+  const NormalCone& cone = surface_.cones[w];
+  if (is_seen_along(cone, axis)) return true;
+  if (cone.squared_sine == NormalCone::kNoBound) return false;
+  const Vec3& center = surface_.mesh.points[w];
+  const std::span<const VertexId> ring = surface_.rings.vertices(w);
+  Vec3 spoke = surface_.mesh.points[ring.back()] - center;
+  for (const VertexId u : ring) {
+    const Vec3 next_spoke = surface_.mesh.points[u] - center;
+    const double longest2 = std::max(spoke.squaredNorm(), next_spoke.squaredNorm());
+    if (!(reliable_direction(spoke.cross(next_spoke), longest2).dot(axis) > 2 * kConeRounding)) return false;
+    spoke = next_spoke;
+  }
+  return true;
+}
+
+void ExactGuard::draw_outline() {
+  has_outline_ = at_target_.is_projected && move_->valence() <= StarOutline::kMaxValence;
+  if (!has_outline_) return;
+  const Eigen::Vector3f axis = single(surface_.cones[move_->vertex()]);
+  outline_.set(move_->spokes(), move_->displacement(), axis, move_->position() - surroundings_.center(), surroundings_.radius());
+  seen_ = 0;
+  for (std::size_t k = 0; k < move_->valence(); ++k) {
+    if (!is_ring_vertex_seen_along(move_->ring()[k], axis)) continue;
+    seen_ |= 1U << k;
+    if (outline_.is_convex_at(k)) settled_.mark(move_->ring()[k]);
+  }
+}
+
+bool ExactGuard::is_clear_of_surroundings() {
+  draw_outline();
+  star_places_.clear();
+  const VertexId v = move_->vertex();
+  const bool is_clear = surroundings_.all_overlapping(reach_box_, [&](std::size_t i) {
+    const TriangleBatch::Entry& entry = surroundings_[i];
+    if (entry.corners[0] == v || entry.corners[1] == v || entry.corners[2] == v) {
+      star_places_.push_back(i);
+      return true;
+    }
+    if (settled_.has_any_of(entry.corners)) return true;
+    return (has_outline_ && is_clear_by_outline(entry)) || is_clear_of(entry);
+  });
+  for (const VertexId w : move_->ring()) settled_.unmark(w);
+  return is_clear;
+}
+
+bool ExactGuard::is_clear_by_outline(const TriangleBatch::Entry& triangle) const {
+  if (outline_.is_clear_of(triangle)) return true;
+  unsigned own = 0;
+  for (const VertexId corner : triangle.corners)
+    for (std::size_t k = 0; k < move_->valence(); ++k) own |= (move_->ring()[k] == corner ? 1U : 0U) << k;
+  return own != 0 && (own & ~seen_) == 0 && outline_.is_parted_from_others(triangle, own);
+}
+
+void ExactGuard::compute_boxes() {
+  const std::vector<Vec3>& ring = move_->ring_points();
+  at_target_.boxes.clear();
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    at_target_.boxes.push_back(surface_.grid.box_of(move_->target(), ring[k], ring[move_->next(k)]));
+}
+
+bool ExactGuard::must_wait() const {
+  if (region_ == nullptr) return false;
+  const std::span<const FaceId> faces = move_->faces();
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (surface_.grid.needs_new_block(faces[k], at_target_.boxes[k])) return true;
+  return false;
+}
+
+void ExactGuard::apply() {
+  surface_.mesh.points[move_->vertex()] = move_->target();
+  surface_.cones[move_->vertex()] = at_target_.cone;
+  const std::span<const FaceId> faces = move_->faces();
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    surface_.cones[move_->ring()[k]] = at_target_.ring_cones[k];
+    surface_.grid.move(faces[k], at_target_.boxes[k]);
+  }
+  for (const std::size_t i : star_places_)
+    surroundings_.move_corner(i, move_->vertex(), move_->target(), surface_.grid.box(surroundings_[i].face));
+}
+
+bool ExactGuard::is_fold_free_at_target() const {
+  const Vec3& target = move_->target();
+  const std::vector<Vec3>& ring = move_->ring_points();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (are_collinear(target, ring[i], ring[move_->next(i)])) return false;
+    if (triangles_meet_beyond_edge({target, ring[i], ring[move_->previous(i)]}, {target, ring[i], ring[move_->next(i)]})) return false;
+    for (std::size_t j = i + 2; j < ring.size(); ++j) {
+      if (move_->next(j) == i) continue;  // shares an edge with i: tested as a neighbour
+      if (triangles_meet_beyond_vertex({target, ring[i], ring[move_->next(i)]}, {target, ring[j], ring[move_->next(j)]})) return false;
+    }
+  }
+  return true;
+}
+
+bool ExactGuard::is_fold_free_on_the_way() const {
+  const std::vector<Vec3>& ring = move_->ring_points();
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec3 &a = ring[k], &b = ring[move_->next(k)];
+    for (std::size_t j = 0; j < ring.size(); ++j) {
+      if (j == k || j == move_->next(k)) continue;
+      const Vec3& c = ring[j];
+      const int before = orient3d(a, b, c, move_->position()), after = orient3d(a, b, c, move_->target());
+      if (before == 0 && after == 0) return false;      // slides in one plane, where only a cone can vouch for it
+      if (before == 0 || before * after > 0) continue;  // leaves a contact, or never comes to one
+      if (touches_sector_on_the_way(a, b, c, move_->position(), move_->target())) return false;
+    }
+  }
+  return true;
+}
+
+Vec3 ExactGuard::mean_normal() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& n : move_->target_normals()) sum += n;
+  return sum.squaredNorm() > 0 ? sum : Vec3(Vec3::UnitZ());
+}
+
+void ExactGuard::prepare_separation() {
+  is_separation_ready_ = true;
+  separation_.set_star(move_->spokes());
+  separation_.set_target(move_->displacement(), is_known(at_target_.cone) ? axis_of(at_target_.cone) : mean_normal());
+  if (move_->valence() <= kLinearSearch || !ring_order_.empty()) return;
+  for (std::size_t i = 0; i < move_->valence(); ++i) ring_order_.emplace_back(move_->ring()[i], static_cast<int>(i));
+  std::sort(ring_order_.begin(), ring_order_.end());
+}
+
+int ExactGuard::slot_of(VertexId w) const {
+  const std::span<const VertexId> ring = move_->ring();
+  if (ring.size() <= kLinearSearch) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      if (ring[i] == w) return static_cast<int>(i);
+    return kNotOnRing;
+  }
+  const auto it = std::lower_bound(ring_order_.begin(), ring_order_.end(), std::pair(w, 0));
+  return it != ring_order_.end() && it->first == w ? it->second : kNotOnRing;
+}
+
+bool ExactGuard::is_clear_of(const TriangleBatch::Entry& triangle) {
+  if (!is_separation_ready_) prepare_separation();
+  separation_.open_all();
+  std::array<int, 3> slots{};
+  SweepSeparation::Corners corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    slots[i] = slot_of(triangle.corners[i]);
+    corners[i] = (surface_.mesh.points[triangle.corners[i]] - move_->position()).cast<float>();
+    // A cone of a shared vertex settles the two triangles of the star that have the vertex too.
+    if (slots[i] == kNotOnRing || !is_known(at_target_.ring_cones[static_cast<std::size_t>(slots[i])])) continue;
+    separation_.close(static_cast<std::size_t>(slots[i]));
+    separation_.close(move_->previous(static_cast<std::size_t>(slots[i])));
+  }
+  if (separation_.separate(corners)) return true;
+  for (std::size_t k = 0; k < move_->valence(); ++k)
+    if (separation_.is_open(k) && meets_sweep_of(triangle.corners, slots, k)) return false;
+  return true;
+}
+
+bool ExactGuard::meets_sweep_of(const Triangle& t, const std::array<int, 3>& slots, std::size_t k) const {
+  SharedCorners shared;
+  for (int i = 0; i < 3; ++i) {
+    if (slots[static_cast<std::size_t>(i)] == static_cast<int>(k)) shared.a = i;
+    if (slots[static_cast<std::size_t>(i)] == static_cast<int>(move_->next(k))) shared.b = i;
+  }
+  const std::vector<Vec3>& ring = move_->ring_points();
+  return meets_sweep({surface_.mesh.points[t[0]], surface_.mesh.points[t[1]], surface_.mesh.points[t[2]]}, shared,
+                     {ring[k], ring[move_->next(k)], move_->position(), move_->target()});
+}
+
+}  // namespace smopt

@@ -1,0 +1,50 @@
+#include "smopt/improve/guarded_surface.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace smopt {
+namespace {
+
+using Directions = std::vector<Eigen::Vector3f>;
+
+/// Of the triangles' normals, as `reliable_direction`.
+Directions normal_directions(const TriangleMesh& mesh) {
+  Directions directions(mesh.triangle_count());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, directions.size(), 4096), [&](const auto& range) {
+    for (std::size_t f = range.begin(); f < range.end(); ++f) {
+      const Triangle& t = mesh.triangles[f];
+      const Vec3 p = mesh.points[t[1]] - mesh.points[t[0]], q = mesh.points[t[2]] - mesh.points[t[0]];
+      directions[f] = reliable_direction(p.cross(q), std::max({p.squaredNorm(), q.squaredNorm(), (q - p).squaredNorm()}));
+    }
+  });
+  return directions;
+}
+
+std::vector<NormalCone> normal_cones(const TriangleMesh& mesh, const VertexRings& rings) {
+  const Directions directions = normal_directions(mesh);
+  std::vector<NormalCone> cones(mesh.vertex_count());
+  tbb::parallel_for(tbb::blocked_range<VertexId>(0, static_cast<VertexId>(cones.size()), 4096), [&](const auto& range) {
+    std::vector<Vec3> ring;
+    Directions of_star;
+    for (VertexId v = range.begin(); v < range.end(); ++v) {
+      ring.clear();
+      of_star.clear();
+      for (const VertexId w : rings.vertices(v)) ring.push_back(mesh.points[w]);
+      for (const FaceId f : rings.faces(v)) of_star.push_back(directions[f]);
+      if (!ring.empty()) cones[v] = find_resting_cone(mesh.points[v], ring, of_star);
+    }
+  });
+  return cones;
+}
+
+}  // namespace
+
+GuardedSurface::GuardedSurface(TriangleMesh& surface_mesh, const VertexRings& mesh_rings)
+    : mesh(surface_mesh),
+      rings(mesh_rings),
+      grid(surface_mesh.points, surface_mesh.triangles),
+      cones(normal_cones(surface_mesh, mesh_rings)) {}
+
+}  // namespace smopt
