@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "smopt/geometry/lanes.h"
 #include "smopt/geometry/vec3.h"
 
 namespace smopt {
@@ -32,24 +33,25 @@ struct Box {
   }
 };
 
-/// The next float below (above) a double: converting rounds to nearest, so one relative step of 2⁻²³ outwards is enough.
+/// Below (above) the double that was converted: converting rounds to nearest, so one relative step of 2⁻²³ outwards is enough.
+inline Floats rounded_down(Floats converted) {
+  return converted - absolute(converted) * 1.2e-7F - std::numeric_limits<float>::min();
+}
+inline Floats rounded_up(Floats converted) {
+  return converted + absolute(converted) * 1.2e-7F + std::numeric_limits<float>::min();
+}
 inline float rounded_down(double x) {
-  const auto f = static_cast<float>(x);
-  return f - std::abs(f) * 1.2e-7F - std::numeric_limits<float>::min();
+  return rounded_down(in_all_lanes(static_cast<float>(x)))[0];
 }
 inline float rounded_up(double x) {
-  const auto f = static_cast<float>(x);
-  return f + std::abs(f) * 1.2e-7F + std::numeric_limits<float>::min();
+  return rounded_up(in_all_lanes(static_cast<float>(x)))[0];
 }
 
 /// The outward-rounded box of the double-precision bounds.
 inline Box make_box(const Vec3& low, const Vec3& high) {
-  Box box;
-  for (int i = 0; i < 3; ++i) {
-    box.low[i] = rounded_down(low[i]);
-    box.high[i] = rounded_up(high[i]);
-  }
-  return box;
+  const Floats down = rounded_down(Floats{static_cast<float>(low[0]), static_cast<float>(low[1]), static_cast<float>(low[2]), 0.0F});
+  const Floats up = rounded_up(Floats{static_cast<float>(high[0]), static_cast<float>(high[1]), static_cast<float>(high[2]), 0.0F});
+  return {{down[0], down[1], down[2]}, {up[0], up[1], up[2]}};
 }
 
 inline Box triangle_box(const Vec3& a, const Vec3& b, const Vec3& c) {

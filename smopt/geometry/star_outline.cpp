@@ -125,6 +125,7 @@ bool StarOutline::is_parted_from_others(const TriangleBatch::Entry& t, unsigned 
   const Floats y = rows_[3] * t.x + rows_[4] * t.y + rows_[5] * t.z - place_y_;
   const float largest = std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2]), std::abs(y[0]), std::abs(y[1]), std::abs(y[2])});
   const float margin = kPartingMargin * margin_ * (largest + 2 * radius_) + kMarginAbs;
+  if (!((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]) > margin)) return false;
   unsigned open = all_ & ~triangles_with(own);
   for (std::size_t i = 0; i < 3 && open != 0; ++i) {
     const std::size_t j = i < 2 ? i + 1 : 0;
@@ -134,7 +135,22 @@ bool StarOutline::is_parted_from_others(const TriangleBatch::Entry& t, unsigned 
     if (is_center_beyond) open &= triangles_with(not_beyond & all_);
   }
   if (open != 0) open &= ~edges_left_of(x, y, margin);
+  if (open != 0) open &= ~triangles_beyond_spokes(x, y, margin);
   return open == 0;
+}
+
+unsigned StarOutline::triangles_beyond_spokes(Floats x, Floats y, float margin) const {
+  const float to_x = points_.x[(valence_) / kLanes][valence_ % kLanes], to_y = points_.y[valence_ / kLanes][valence_ % kLanes];
+  unsigned right = 0, left = 0;  // spokes that have all three points to their right, or left, and beyond the target
+  for (std::size_t c = 0; c * kLanes < valence_; ++c) {
+    const auto cross = [&](float px, float py) { return points_.x[c] * py - points_.y[c] * px; };
+    const Floats a = cross(x[0], y[0]), b = cross(x[1], y[1]), d = cross(x[2], y[2]), target = cross(to_x, to_y), none{};
+    right |= lanes_set(larger_of(larger_of(a, b), d) < smaller_of(target, none) - margin) << (kLanes * c);
+    left |= lanes_set(smaller_of(smaller_of(a, b), d) > larger_of(target, none) + margin) << (kLanes * c);
+  }
+  // Triangle k is between spokes k and k + 1.
+  left &= all_;
+  return right | left >> 1 | left << (valence_ - 1);
 }
 
 }  // namespace smopt

@@ -38,8 +38,8 @@ class StarOutline {
   /// Whether the triangle is proved to be beyond the prism.
   [[nodiscard]] bool is_clear_of(const TriangleBatch::Entry& triangle) const;
 
-  /// Whether lines are proved to part the triangle from all of the star's triangles that have none of the ring vertices in `own` (a bit each).
-  /// \pre seen along the axis, the triangle is anticlockwise.
+  /// Whether the triangle is proved to be anticlockwise as seen along the axis, and parted by lines from all of the star's triangles that have
+  /// none of the ring vertices in `own` (a bit each).
   [[nodiscard]] bool is_parted_from_others(const TriangleBatch::Entry& triangle, unsigned own) const;
 
  private:
@@ -59,6 +59,8 @@ class StarOutline {
   void find_convex_corners();
   /// The ring's edges that have all three points strictly to their right, a bit each.
   [[nodiscard]] unsigned edges_left_of(Floats x, Floats y, float margin) const;
+  /// The star's triangles that a spoke parts from the three points, a bit each.
+  [[nodiscard]] unsigned triangles_beyond_spokes(Floats x, Floats y, float margin) const;
   /// Which of the star's triangles have one of the ring vertices.
   [[nodiscard]] unsigned triangles_with(unsigned vertices) const { return (vertices | vertices >> 1 | vertices << (valence_ - 1)) & all_; }
   /// The points that are not strictly to the left of the line through (x, y) along (dx, dy), a bit each.

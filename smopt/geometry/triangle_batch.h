@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "smopt/geometry/box.h"
@@ -13,8 +14,8 @@ namespace smopt {
 
 /// The triangles in a small part of space, copied close together: a group of neighbouring vertices asks it instead of the grid.
 ///
-/// Boxes are the grid's, four to a group so that a query tests four at once; corners are in single precision relative to a centre nearby.
-/// The copy is complete for its space as long as every triangle that moves is updated here and stays within the space.
+/// Boxes are the grid's, in steps of a 64000th of the space, so that a query tests eight at once; corners are in single precision relative to a
+/// centre nearby. The copy is complete for its space as long as every triangle that moves is updated here and stays within the space.
 class TriangleBatch {
  public:
   /// A triangle, its corners in lanes 0 to 2 (lane 3 repeats lane 2).
@@ -40,45 +41,36 @@ class TriangleBatch {
   [[nodiscard]] float radius() const { return radius_; }
   [[nodiscard]] const Entry& operator[](std::size_t i) const { return entries_[i]; }
 
-  /// Calls visit(i) for the entries whose boxes overlap `box`, until it returns false; returns whether it never did. \pre covers(box).
-  template <class Visit>
-  bool all_overlapping(const Box& box, const Visit& visit) const {
-    const BoxLanes query(box);
-    for (std::size_t group = 0; group < boxes_.size(); ++group) {
-      for (unsigned hits = boxes_[group].overlaps(query); hits != 0; hits &= hits - 1)
-        if (!visit(group * kLanes + static_cast<std::size_t>(__builtin_ctz(hits)))) return false;
-    }
-    return true;
-  }
+  /// Numbers of entries, ascending: all whose boxes overlap `box`, and perhaps some that miss it by less than a step. \pre covers(box). Valid
+  /// until the next call. Cost: about a nanosecond an entry.
+  [[nodiscard]] std::span<const std::uint32_t> near(const Box& box);
 
   /// Moves one corner of an entry to `point` (absolute); `box` is the triangle's new one, within the space.
   void move_corner(std::size_t i, std::uint32_t corner, const Vec3& point, const Box& box);
 
  private:
-  /// Four boxes, or one in all lanes.
-  struct BoxLanes {
-    BoxLanes() : BoxLanes(Box{}) {}
-    explicit BoxLanes(const Box& box)
-        : low{in_all_lanes(box.low[0]), in_all_lanes(box.low[1]), in_all_lanes(box.low[2])},
-          high{in_all_lanes(box.high[0]), in_all_lanes(box.high[1]), in_all_lanes(box.high[2])} {}
-    [[nodiscard]] unsigned overlaps(const BoxLanes& q) const {
-      return lanes_set((low[0] <= q.high[0]) & (low[1] <= q.high[1]) & (low[2] <= q.high[2]) & (q.low[0] <= high[0]) &
-                       (q.low[1] <= high[1]) & (q.low[2] <= high[2]));
-    }
-    void set(std::size_t lane, const Box& box) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis][lane] = box.low[axis];
-        high[axis][lane] = box.high[axis];
-      }
-    }
-    Floats low[3], high[3];
+  /// Eight coordinates in steps of the space.
+  using Steps = std::int16_t __attribute__((vector_size(16)));
+  static constexpr std::size_t kBoxesPerGroup = 8;
+  struct BoxGroup {
+    Steps low[3], high[3];
   };
 
+  void set_space(const Box& space);
+  /// A monotone function of the coordinates, so that boxes that overlap do so in steps too.
+  [[nodiscard]] Masks steps_of(const float* point) const {
+    const Floats steps = (in_lanes(point) - in_lanes(space_.low)) * steps_per_unit_ - 32000.0F;
+    return __builtin_convertvector(smaller_of(larger_of(steps, in_all_lanes(-32000.0F)), in_all_lanes(32000.0F)), Masks);
+  }
+  void put_box(std::size_t i, const Box& box);
+
   Box space_;
+  Floats steps_per_unit_{};
   Vec3 center_ = Vec3::Zero();
   float radius_ = 0;
   std::vector<Entry> entries_;
-  std::vector<BoxLanes> boxes_;  // of entry i: lane i % 4 of group i / 4; empty boxes behind the last
+  std::vector<BoxGroup> boxes_;      // of entry i: lane i % 8 of group i / 8; behind the last, boxes that nothing overlaps
+  std::vector<std::uint32_t> near_;  // what was found last
 };
 
 }  // namespace smopt

@@ -1,31 +1,29 @@
 #include "smopt/geometry/triangle_grid.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
-
-#include <oneapi/tbb/parallel_for.h>
 
 namespace smopt {
 namespace {
 
-/// Edge of a cube relative to the mean extent of a triangle's box. Smaller means more cubes to walk, larger more triangles to test;
-/// measured on molecular surfaces, 1.5 to 2 is flat.
+/// Edge of the smallest cube relative to the mean extent of a triangle's box. Smaller means more cubes to walk, larger more triangles to test.
 constexpr float kCubePerExtent = 1.5F;
-/// A triangle that would be listed by more cubes than this is kept apart and tested by every query.
-constexpr std::int64_t kMaxCubesPerTriangle = 4096;
 /// Cube indices are 16-bit: the whole space is at most this many cubes across to either side of the origin.
 constexpr float kMaxCubeIndex = 31000.0F;
 /// The hash table starts with room for this many blocks.
 constexpr std::size_t kInitialTable = 1024;
+/// Triangles a task when something is done for each of them.
+constexpr std::uint32_t kGrain = 8192;
+/// Eight-fold sizes: 2^15 smallest cubes span the space, 2^(3·6) are more.
+constexpr std::size_t kTiers = 6;
 
 float largest_extent(const Box& box) {
   return std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
 }
-
-/// Triangles a task when something is done for each of them.
-constexpr std::uint32_t kGrain = 8192;
 
 template <class Visit>
 void for_all_in_parallel(std::uint32_t count, const Visit& visit) {
@@ -37,18 +35,16 @@ void for_all_in_parallel(std::uint32_t count, const Visit& visit) {
 }  // namespace
 
 TriangleGrid::TriangleGrid(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles)
-    : boxes_(triangles.size()), ranges_(triangles.size()) {
+    : places_(triangles.size()), tiers_(kTiers) {
   choose_frame(points);
   const auto count = static_cast<std::uint32_t>(triangles.size());
-  std::vector<Box> boxes(count);
   for_all_in_parallel(count, [&](std::uint32_t f) {
     const auto& [a, b, c] = triangles[f];
-    boxes[f] = box_of(points[a], points[b], points[c]);
-    boxes_[f] = PackedBox(boxes[f]);
+    places_[f].set(box_of(points[a], points[b], points[c]));
   });
-  choose_cube_size(boxes);
-  for_all_in_parallel(count, [&](std::uint32_t f) { ranges_[f] = cubes_of(boxes[f]); });
-  sort_into_cubes();
+  choose_cube_size();
+  for_all_in_parallel(count, [&](std::uint32_t f) { places_[f].home = home_for(halves_of(box(f))); });
+  build_lists();
 }
 
 void TriangleGrid::choose_frame(const std::vector<Vec3>& points) {
@@ -62,116 +58,109 @@ void TriangleGrid::choose_frame(const std::vector<Vec3>& points) {
   half_extent_ = static_cast<float>((0.5 * (high - low)).maxCoeff());
 }
 
-void TriangleGrid::choose_cube_size(const std::vector<Box>& boxes) {
+void TriangleGrid::choose_cube_size() {
   double sum = 0;
-  for (const Box& box : boxes) sum += largest_extent(box);
-  const auto mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(boxes.size(), 1)));
-  cubes_per_unit_ = 1 / std::max({kCubePerExtent * mean, half_extent_ / kMaxCubeIndex, std::numeric_limits<float>::min() * 16});
+  for (std::uint32_t f = 0; f < places_.size(); ++f) sum += largest_extent(box(f));
+  const auto mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(places_.size(), 1)));
+  const float cube = std::max({kCubePerExtent * mean, half_extent_ / kMaxCubeIndex, std::numeric_limits<float>::min() * 16});
+  halves_per_unit_ = 2 / cube;
 }
 
-std::uint32_t TriangleGrid::find_or_add_block(int x, int y, int z) {
-  const std::uint32_t known = find_block(x, y, z);
+void TriangleGrid::build_lists() {
+  const auto count = static_cast<std::uint32_t>(places_.size());
+  for (std::uint32_t f = 0; f < count; ++f) {
+    Tier& tier = tiers_[static_cast<std::size_t>(tier_of(places_[f].home))];
+    const std::uint32_t slot = slot_of(places_[f].home);
+    tier.blocks[tier.find_or_add(block_key(places_[f].home))].occupied[slot >> 6] |= std::uint64_t{1} << (slot & 63);
+    tier.largest_size = std::max(tier.largest_size, places_[f].home.size() % kSizes);
+  }
+  // Counted and filled by all threads at once; the order within a cube is any, and no decision depends on it.
+  const auto slot_in_tier = [&](const Tier& tier, std::uint32_t f) {
+    return std::size_t{tier.find(block_key(places_[f].home))} * kSlotsPerBlock + slot_of(places_[f].home);
+  };
+  std::vector<std::vector<std::uint32_t>> next(kTiers);
+  for (std::size_t t = 0; t < kTiers; ++t) next[t].assign(tiers_[t].blocks.size() * kSlotsPerBlock, 0);
+  const auto take_number = [&](std::size_t t, std::size_t slot) {
+    return std::atomic_ref(next[t][slot]).fetch_add(1, std::memory_order_relaxed);
+  };
+  for_all_in_parallel(count, [&](std::uint32_t f) {
+    const auto t = static_cast<std::size_t>(tier_of(places_[f].home));
+    take_number(t, slot_in_tier(tiers_[t], f));
+  });
+  for (std::size_t t = 0; t < kTiers; ++t) {
+    Tier& tier = tiers_[t];
+    tier.begin.assign(next[t].size() + 1, 0);
+    for (std::size_t i = 0; i < next[t].size(); ++i) tier.begin[i + 1] = tier.begin[i] + std::exchange(next[t][i], tier.begin[i]);
+    tier.entries.resize(tier.begin.back());
+    tier.added_head.assign(next[t].size(), kNone);
+  }
+  for_all_in_parallel(count, [&](std::uint32_t f) {
+    const auto t = static_cast<std::size_t>(tier_of(places_[f].home));
+    tiers_[t].entries[take_number(t, slot_in_tier(tiers_[t], f))] = f;
+  });
+}
+
+bool TriangleGrid::has_block_for(Home home) const {
+  return home.size() < kSizes && home.size() <= tiers_.front().largest_size && tiers_.front().find(block_key(home)) != kNone;
+}
+
+void TriangleGrid::settle(std::uint32_t f, const Halves& halves) {
+  places_[f].home = home_for(halves);
+  list(f, places_[f].home);
+}
+
+void TriangleGrid::list(std::uint32_t f, Home home) {
+  Tier& tier = tiers_[static_cast<std::size_t>(tier_of(home))];
+  if (home.size() % kSizes > tier.largest_size) tier.largest_size = home.size() % kSizes;
+  const std::uint32_t block = tier.find_or_add(block_key(home));
+  const std::uint32_t slot = slot_of(home);
+  const std::size_t i = std::size_t{block} * kSlotsPerBlock + slot;
+  if (i >= tier.added_head.size()) {
+    tier.added_head.resize(tier.blocks.size() * kSlotsPerBlock, kNone);
+    tier.begin.resize(tier.blocks.size() * kSlotsPerBlock + 1, static_cast<std::uint32_t>(tier.entries.size()));
+  }
+  // It may have been at home here before: then its old entry is good again.
+  std::vector<AddedEntry>& added = tier.blocks[block].added;
+  const auto first = tier.entries.begin() + tier.begin[i], last = tier.entries.begin() + tier.begin[i + 1];
+  if (std::find(first, last, f) != last) return;
+  for (std::uint32_t k = tier.added_head[i]; k != kNone; k = added[k].next)
+    if (added[k].face == f) return;
+  added.push_back({f, tier.added_head[i]});
+  tier.added_head[i] = static_cast<std::uint32_t>(added.size() - 1);
+  tier.blocks[block].occupied[slot >> 6] |= std::uint64_t{1} << (slot & 63);
+}
+
+std::uint32_t TriangleGrid::Tier::find(std::uint64_t key) const {
+  if (table.empty()) return kNone;
+  for (std::size_t slot = table_slot(key);; slot = slot + 1 < table.size() ? slot + 1 : 0) {
+    if (table[slot].block == kNone) return kNone;
+    if (table[slot].key == key) return table[slot].block;
+  }
+}
+
+std::uint32_t TriangleGrid::Tier::find_or_add(std::uint64_t key) {
+  if (!blocks.empty() && blocks.back().key == key) return static_cast<std::uint32_t>(blocks.size() - 1);
+  const std::uint32_t known = find(key);
   if (known != kNone) return known;
-  const auto block = static_cast<std::uint32_t>(blocks_.size());
-  blocks_.push_back({block_key(x, y, z), {}});
-  if (2 * blocks_.size() > table_.size())
+  const auto block = static_cast<std::uint32_t>(blocks.size());
+  blocks.push_back({key, {}, {}});
+  if (2 * blocks.size() > table.size())
     grow_table();
   else
-    put_into_table(blocks_.back().key, block);
+    put_into_table(key, block);
   return block;
 }
 
-void TriangleGrid::put_into_table(std::uint64_t key, std::uint32_t block) {
+void TriangleGrid::Tier::put_into_table(std::uint64_t key, std::uint32_t block) {
   std::size_t slot = table_slot(key);
-  while (table_[slot].block != kNone) slot = slot + 1 < table_.size() ? slot + 1 : 0;
-  table_[slot] = {key, block};
+  while (table[slot].block != kNone) slot = slot + 1 < table.size() ? slot + 1 : 0;
+  table[slot] = {key, block};
 }
 
-void TriangleGrid::grow_table() {
-  table_.assign(2 * std::max(table_.size(), kInitialTable / 2), {0, kNone});
-  table_shift_ = 64 - std::countr_zero(table_.size());
-  for (std::uint32_t block = 0; block < blocks_.size(); ++block) put_into_table(blocks_[block].key, block);
-}
-
-bool TriangleGrid::has_blocks_for(const CubeRange& range) const {
-  for (int x = range.low[0] >> 2; x <= range.high[0] >> 2; ++x)
-    for (int y = range.low[1] >> 2; y <= range.high[1] >> 2; ++y)
-      for (int z = range.low[2] >> 2; z <= range.high[2] >> 2; ++z)
-        if (find_block(x, y, z) == kNone) return false;
-  return true;
-}
-
-void TriangleGrid::add_blocks_for(const CubeRange& range) {
-  for (int x = range.low[0] >> 2; x <= range.high[0] >> 2; ++x)
-    for (int y = range.low[1] >> 2; y <= range.high[1] >> 2; ++y)
-      for (int z = range.low[2] >> 2; z <= range.high[2] >> 2; ++z) find_or_add_block(x, y, z);
-}
-
-void TriangleGrid::sort_into_cubes() {
-  grow_table();
-  const auto count = static_cast<std::uint32_t>(ranges_.size());
-  for (std::uint32_t f = 0; f < count; ++f) {
-    if (cube_count(ranges_[f]) > kMaxCubesPerTriangle)
-      set_apart(f);
-    else
-      add_blocks_for(ranges_[f]);
-  }
-  const auto for_cubes = [&](std::uint32_t f, const auto& visit) {
-    const CubeRange& r = ranges_[f];
-    if (cube_count(r) > kMaxCubesPerTriangle) return;
-    for (int x = r.low[0]; x <= r.high[0]; ++x)
-      for (int y = r.low[1]; y <= r.high[1]; ++y)
-        for (int z = r.low[2]; z <= r.high[2]; ++z)
-          visit(std::size_t{find_block(x >> 2, y >> 2, z >> 2)} * kCubesPerBlock + static_cast<std::size_t>(cube_in_block(x, y, z)));
-  };
-  const std::size_t cubes = blocks_.size() * kCubesPerBlock;
-  // Counted and filled by all threads at once; the order within a cube is any, and no decision depends on it.
-  std::vector<std::uint32_t> next(cubes, 0);
-  for_all_in_parallel(count, [&](std::uint32_t f) {
-    for_cubes(f, [&](std::size_t cube) { std::atomic_ref(next[cube]).fetch_add(1, std::memory_order_relaxed); });
-  });
-  cube_begin_.assign(cubes + 1, 0);
-  for (std::size_t i = 0; i < cubes; ++i) {
-    cube_begin_[i + 1] = cube_begin_[i] + next[i];
-    next[i] = cube_begin_[i];
-  }
-  entries_.resize(cube_begin_.back());
-  for_all_in_parallel(count, [&](std::uint32_t f) {
-    for_cubes(f, [&](std::size_t cube) { entries_[std::atomic_ref(next[cube]).fetch_add(1, std::memory_order_relaxed)] = f; });
-  });
-  added_head_.assign(cubes, kNone);
-}
-
-void TriangleGrid::set_apart(std::uint32_t f) {
-  large_.push_back(f);
-  ranges_[f] = {{kApart, kApart, kApart}, {32767, 32767, 32767}};  // contains every range: never extended again
-}
-
-void TriangleGrid::list(std::uint32_t f, int x, int y, int z) {
-  const std::uint32_t block = find_or_add_block(x >> 2, y >> 2, z >> 2);
-  const std::size_t cube = std::size_t{block} * kCubesPerBlock + static_cast<std::size_t>(cube_in_block(x, y, z));
-  if (cube >= added_head_.size()) {
-    added_head_.resize(blocks_.size() * kCubesPerBlock, kNone);
-    cube_begin_.resize(blocks_.size() * kCubesPerBlock + 1, static_cast<std::uint32_t>(entries_.size()));
-  }
-  std::vector<AddedEntry>& added = blocks_[block].added;
-  added.push_back({f, added_head_[cube]});
-  added_head_[cube] = static_cast<std::uint32_t>(added.size() - 1);
-}
-
-void TriangleGrid::extend(std::uint32_t f, const CubeRange& range) {
-  const CubeRange listed = ranges_[f], all = united(listed, range);
-  if (cube_count(all) > kMaxCubesPerTriangle) return set_apart(f);
-  for (int x = all.low[0]; x <= all.high[0]; ++x) {
-    for (int y = all.low[1]; y <= all.high[1]; ++y) {
-      for (int z = all.low[2]; z <= all.high[2]; ++z) {
-        const bool is_listed = x >= listed.low[0] && x <= listed.high[0] && y >= listed.low[1] && y <= listed.high[1] &&
-                               z >= listed.low[2] && z <= listed.high[2];
-        if (!is_listed) list(f, x, y, z);
-      }
-    }
-  }
-  ranges_[f] = all;
+void TriangleGrid::Tier::grow_table() {
+  table.assign(2 * std::max(table.size(), kInitialTable / 2), {0, kNone});
+  table_shift = 64 - std::countr_zero(table.size());
+  for (std::uint32_t block = 0; block < blocks.size(); ++block) put_into_table(blocks[block].key, block);
 }
 
 }  // namespace smopt

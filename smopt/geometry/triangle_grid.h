@@ -1,27 +1,33 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
-#include <span>
+#include <cstring>
+#include <limits>
 #include <vector>
 
 #include "smopt/geometry/box.h"
+#include "smopt/geometry/lanes.h"
 #include "smopt/geometry/vec3.h"
 
 namespace smopt {
 
-/// A spatial index of triangles that move: cubes of one size, each listing the triangles whose boxes reach into it.
+/// A spatial index of triangles that move: cubes of sizes 1, 2, 4, …, each listing the triangles that are at home in it.
 ///
-/// Entries are only ever added, so that a cube may list a triangle that has left it, never miss one that is there; every query tests the
-/// triangle's present box. Cubes are kept in blocks of 4×4×4, and blocks in a hash table, so that memory follows the surface and not the
-/// size of the space: about 80 bytes a triangle. The box is kept in single precision relative to the centre of all points, so that
-/// coordinates far from the origin stay sharp.
+/// A triangle is at home in one cube, of a size not below its own, whose bounds loosened by half a cube on every side contain it. So it is listed
+/// once, stays listed where it is while it moves a little, and is found wherever its box overlaps a query (loose octree: Ulrich, Game Programming
+/// Gems, 2000). An entry that was left behind by a move stays, and is told by the triangle's present home. The cubes of three sizes make a block,
+/// blocks of eight-fold size make the next tier; blocks are in a hash table, so that memory follows the surface and not the size of the space:
+/// about 60 bytes a triangle. Boxes are kept in single precision relative to the centre of all points, so that coordinates far from the origin
+/// stay sharp.
 ///
-/// Threads may query and move triangles at the same time when each keeps to a region of its own made of whole blocks: every cube that its
-/// queries cover, and every cube that lists or will list a triangle it moves, must lie in its region, and no move may need a new block.
+/// Threads may query and move triangles at the same time when each keeps to a region of its own made of whole blocks of the first tier: all that
+/// its queries read (`reading`) and the homes of all triangles that it moves (`home`) must lie in its region, and no move may need more
+/// (`needs_whole_grid`).
 class TriangleGrid {
  public:
-  /// The cubes from `low` to `high`, both included, by 16-bit indices (the cubes are made large enough).
+  /// The smallest cubes from `low` to `high`, both included, by 16-bit indices (the cubes are made large enough).
   struct CubeRange {
     std::int16_t low[3];
     std::int16_t high[3];
@@ -31,11 +37,10 @@ class TriangleGrid {
                                (r.high[1] <= high[1]) & (r.high[2] <= high[2]));
     }
   };
-  /// Cubes along the edge of a block.
+  /// Cubes along the edge of a block of the first tier.
   static constexpr int kBlockEdge = 4;
 
-  /// Cost: O(n), for triangles of similar size; a triangle much larger than the cubes costs as many entries as cubes it covers, up to a
-  /// bound.
+  /// Cost: O(n), whatever the sizes of the triangles.
   TriangleGrid(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
   /// The point that boxes are relative to.
@@ -49,165 +54,268 @@ class TriangleGrid {
 
   /// The cubes that a box covers.
   [[nodiscard]] CubeRange cubes_of(const Box& box) const {
-    return {{cube_index(box.low[0]), cube_index(box.low[1]), cube_index(box.low[2])},
-            {cube_index(box.high[0]), cube_index(box.high[1]), cube_index(box.high[2])}};
+    const Halves h = halves_of(box);
+    CubeRange range;
+    for (int i = 0; i < 3; ++i) {
+      range.low[i] = static_cast<std::int16_t>(h.low[i] >> 1);
+      range.high[i] = static_cast<std::int16_t>(h.high[i] >> 1);
+    }
+    return range;
   }
-  /// The cubes that list triangle f.
-  [[nodiscard]] const CubeRange& listing(std::uint32_t f) const { return ranges_[f]; }
+  /// What a query with this box reads in the first tier, in whole blocks.
+  [[nodiscard]] CubeRange reading(const Box& box) const {
+    const BlockRange blocks = blocks_for(halves_of(box), kSizes - 1);
+    CubeRange range;
+    for (int i = 0; i < 3; ++i) {
+      range.low[i] = static_cast<std::int16_t>(blocks.low[i] * kBlockEdge);
+      range.high[i] = static_cast<std::int16_t>(blocks.high[i] * kBlockEdge + kBlockEdge - 1);
+    }
+    return range;
+  }
+  /// The cubes that make up the home of triangle f; where it is not in the first tier, more than any region has.
+  [[nodiscard]] CubeRange home(std::uint32_t f) const {
+    const Home h = places_[f].home;
+    if (h.size() >= kSizes) return {{-32768, -32768, -32768}, {32767, 32767, 32767}};
+    CubeRange range;
+    for (int i = 0; i < 3; ++i) {
+      range.low[i] = static_cast<std::int16_t>(h.cube(i) << h.size());
+      range.high[i] = static_cast<std::int16_t>(range.low[i] + (1 << h.size()) - 1);
+    }
+    return range;
+  }
 
-  /// Tells the grid where triangle f is now.
+  /// Whether triangle f stays listed where it is when it moves to `box`.
+  [[nodiscard]] bool stays_at_home(std::uint32_t f, const Box& box) const { return fits(places_[f].home, halves_of(box)); }
+  /// Tells the grid where triangle f is now. \pre stays_at_home(f, box).
+  void move_at_home(std::uint32_t f, const Box& box) { places_[f].set(box); }
+  /// The same without the precondition.
   void move(std::uint32_t f, const Box& box) {
-    boxes_[f] = PackedBox(box);
-    const CubeRange range = cubes_of(box);
-    if (!ranges_[f].contains(range)) extend(f, range);
+    places_[f].set(box);
+    if (!stays_at_home(f, box)) settle(f, halves_of(box));
   }
 
-  /// Whether moving triangle f to `box` would change more than blocks that exist: then no other thread may be at work.
-  [[nodiscard]] bool needs_new_block(std::uint32_t f, const Box& box) const {
-    const CubeRange range = cubes_of(box);
-    return !ranges_[f].contains(range) && !has_blocks_for(united(ranges_[f], range));
-  }
+  /// Whether moving triangle f to `box`, away from home, would change more than blocks that exist in the first tier: then no other thread may be
+  /// at work.
+  [[nodiscard]] bool needs_whole_grid(const Box& box) const { return !has_block_for(home_for(halves_of(box))); }
 
   /// Where triangle f is, as told last.
-  [[nodiscard]] Box box(std::uint32_t f) const { return boxes_[f].unpacked(); }
+  [[nodiscard]] Box box(std::uint32_t f) const { return places_[f].box(); }
 
   /// Takes triangle f out: no query finds it any more.
-  void remove(std::uint32_t f) { boxes_[f] = PackedBox(Box{}); }
+  void remove(std::uint32_t f) { places_[f].set(Box{}); }
 
   /// Calls visit(f) once for every triangle whose box overlaps `box`.
   template <class Visit>
   void for_overlapping(const Box& box, const Visit& visit) const {
-    const CubeRange range = cubes_of(box);
-    const PackedQuery query(box);
-    if (cube_count(range) > static_cast<std::int64_t>(boxes_.size())) return visit_all(query, visit);
-    for (int x = range.low[0] >> 2; x <= range.high[0] >> 2; ++x)
-      for (int y = range.low[1] >> 2; y <= range.high[1] >> 2; ++y)
-        for (int z = range.low[2] >> 2; z <= range.high[2] >> 2; ++z) visit_block(x, y, z, range, query, visit);
-    for (const std::uint32_t f : large_)
-      if (query.overlaps(boxes_[f])) visit(f);
+    const Halves halves = halves_of(box);
+    const Query query(box);
+    if (blocks_for(halves, kSizes - 1).count() > static_cast<std::int64_t>(places_.size())) return visit_all(query, visit);
+    for (std::size_t t = 0; t < tiers_.size(); ++t)
+      if (!tiers_[t].blocks.empty()) visit_tier(static_cast<int>(t), halves.at_tier(static_cast<int>(t)), query, visit);
   }
 
  private:
-  /// An entry that was added after the build, in a linked list by cube within its block.
+  /// Sizes of cubes in a block: 4 × 4 × 4 of the smallest, 2 × 2 × 2 of twice that, and one.
+  static constexpr int kSizes = 3;
+  static constexpr std::uint32_t kSlotsPerBlock = 64 + 8 + 1;
+  static constexpr std::array<std::uint32_t, kSizes> kFirstSlot = {0, 64, 72};
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  /// A box in halves of the smallest cube: a monotone function of its coordinates, on which all decisions about homes rest, so that rounding
+  /// cannot make a query and a home disagree.
+  struct Halves {
+    Masks low, high;  // three coordinates
+    [[nodiscard]] Halves at_tier(int tier) const { return {low >> kSizes * tier, high >> kSizes * tier}; }
+  };
+  /// A cube by its index and size (2^size smallest cubes), in one word.
+  struct Home {
+    std::uint64_t bits = 0;
+
+    Home() = default;
+    Home(int x, int y, int z, int size)
+        : bits(std::uint64_t{static_cast<std::uint16_t>(x)} | std::uint64_t{static_cast<std::uint16_t>(y)} << 16 |
+               std::uint64_t{static_cast<std::uint16_t>(z)} << 32 | static_cast<std::uint64_t>(size) << 48) {}
+    [[nodiscard]] int cube(int axis) const { return static_cast<std::int16_t>(bits >> 16 * axis); }
+    [[nodiscard]] int size() const { return static_cast<int>(bits >> 48); }
+    bool operator==(const Home&) const = default;
+  };
+  struct BlockRange {
+    int low[3], high[3];
+    [[nodiscard]] std::int64_t count() const {
+      return std::int64_t{high[0] - low[0] + 1} * (high[1] - low[1] + 1) * (high[2] - low[2] + 1);
+    }
+  };
+  /// An entry that was added after the build, in a linked list by slot within its block.
   struct AddedEntry {
     std::uint32_t face;
     std::uint32_t next;
   };
-  /// A box as eight floats (low, and high negated), so that an overlap is one comparison "all not larger" of two vectors.
-  using Lanes = float __attribute__((vector_size(16)));
-  struct PackedBox {
-    PackedBox() : PackedBox(Box{}) {}
-    [[nodiscard]] Box unpacked() const { return {{low[0], low[1], low[2]}, {-negated_high[0], -negated_high[1], -negated_high[2]}}; }
-    explicit PackedBox(const Box& box)
-        : low{box.low[0], box.low[1], box.low[2], 0.0F}, negated_high{-box.high[0], -box.high[1], -box.high[2], 0.0F} {}
-    Lanes low, negated_high;
-  };
-  struct PackedQuery {
-    explicit PackedQuery(const Box& box)
-        : high{box.high[0], box.high[1], box.high[2], 0.0F}, negated_low{-box.low[0], -box.low[1], -box.low[2], 0.0F} {}
-    [[nodiscard]] bool overlaps(const PackedBox& box) const {
-      using Halves = std::int64_t __attribute__((vector_size(16)));
-      const auto both = (box.low <= high) & (box.negated_high <= negated_low);
-      const auto halves = reinterpret_cast<Halves>(both);
-      return (halves[0] & halves[1]) == -1;
-    }
-    Lanes high, negated_low;
-  };
   struct Block {
-    std::uint64_t key;
+    std::uint64_t key = 0;
+    std::array<std::uint64_t, 2> occupied{};  // a bit a slot
     std::vector<AddedEntry> added;
   };
   struct TableEntry {
     std::uint64_t key;
     std::uint32_t block;  // kNone: free
   };
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  static constexpr std::size_t kCubesPerBlock = 64;
-  /// The lower end of the range of a triangle that is kept apart: below every cube.
-  static constexpr std::int16_t kApart = -32768;
+  /// The blocks of one size.
+  struct Tier {
+    std::vector<Block> blocks;
+    std::vector<TableEntry> table;  // open addressing, at most half full
+    int table_shift = 0;
+    int largest_size = 0;                   // of the cubes in use, 0 to kSizes − 1
+    std::vector<std::uint32_t> begin;       // per slot of each block, into entries
+    std::vector<std::uint32_t> entries;     // triangles, as built
+    std::vector<std::uint32_t> added_head;  // per slot of each block, into the block's added entries
 
-  [[nodiscard]] std::int16_t cube_index(float x) const {
-    const float scaled = x * cubes_per_unit_;
-    const float clamped = scaled < -32000.0F ? -32000.0F : (scaled > 32000.0F ? 32000.0F : scaled);
-    return static_cast<std::int16_t>(static_cast<int>(clamped + 32768.0F) - 32768);  // floor, by a shift to positive numbers
+    [[nodiscard]] std::uint32_t find(std::uint64_t key) const;
+    std::uint32_t find_or_add(std::uint64_t key);
+    void put_into_table(std::uint64_t key, std::uint32_t block);
+    void grow_table();
+    /// Where in the table the search for a key begins: the upper bits of a product with 2⁶⁴/φ (Knuth's multiplicative hashing).
+    [[nodiscard]] std::size_t table_slot(std::uint64_t key) const { return (key * 0x9E3779B97F4A7C15U) >> table_shift; }
+  };
+  /// Where a triangle is, and where it is listed: half a cache line.
+  struct alignas(32) Place {
+    float bounds[6] = {};  // the box's lower end, then its upper end negated, so that "overlaps" is "not larger" for all six
+    Home home;
+
+    Place() { set(Box{}); }
+    void set(const Box& box) {
+      for (int i = 0; i < 3; ++i) {
+        bounds[i] = box.low[i];
+        bounds[3 + i] = -box.high[i];
+      }
+    }
+    [[nodiscard]] Box box() const { return {{bounds[0], bounds[1], bounds[2]}, {-bounds[3], -bounds[4], -bounds[5]}}; }
+  };
+  struct Query {
+    explicit Query(const Box& box)
+        : first{box.high[0], box.high[1], box.high[2], -box.low[0]}, last{box.high[2], -box.low[0], -box.low[1], -box.low[2]} {}
+    /// The six numbers as two overlapping vectors of four.
+    [[nodiscard]] bool overlaps(const Place& place) const {
+      Floats first_four, last_four;
+      std::memcpy(&first_four, &place.bounds[0], sizeof first_four);
+      std::memcpy(&last_four, &place.bounds[2], sizeof last_four);
+      return is_set_in_all((first_four <= first) & (last_four <= last));
+    }
+    Floats first, last;
+  };
+
+  /// Rounds down, nearly: by a shift to positive numbers, where the sum rounds first.
+  [[nodiscard]] Masks half_indices(Floats x) const {
+    const Floats clamped = smaller_of(larger_of(x * halves_per_unit_, in_all_lanes(-64000.0F)), in_all_lanes(64000.0F));
+    return __builtin_convertvector(clamped + 65536.0F, Masks) - 65536;
   }
-  static int cube_in_block(int x, int y, int z) { return (x & 3) << 4 | (y & 3) << 2 | (z & 3); }
-  static std::uint64_t block_key(int x, int y, int z) {
+  [[nodiscard]] Halves halves_of(const Box& box) const { return {half_indices(in_lanes(box.low)), half_indices(in_lanes(box.high))}; }
+
+  // A box is in the loosened bounds of cube c of size 2^s when 2c − 1 ≤ low >> s and high >> s ≤ 2c + 2 (in halves, for each coordinate); so
+  // the homes of what may overlap a box are the cubes from ((low >> s) − 1) >> 1 to ((high >> s) + 1) >> 1.
+  static int first_cube(int low, int size) { return ((low >> size) - 1) >> 1; }
+  static int last_cube(int high, int size) { return ((high >> size) + 1) >> 1; }
+  static bool fits(Home home, const Halves& h) {
+    const Masks twice = 2 * Masks{home.cube(0), home.cube(1), home.cube(2), 0};
+    return is_set_in_all((twice - 1 <= h.low >> home.size()) & (h.high >> home.size() <= twice + 2));
+  }
+  /// The home that a box is given: the smallest cube that it fits around its middle.
+  static Home home_for(const Halves& h) {
+    const Masks middle = (h.low + h.high) >> 1;
+    for (int size = 0;; ++size) {
+      const Home home(middle[0] >> (size + 1), middle[1] >> (size + 1), middle[2] >> (size + 1), size);
+      if (fits(home, h)) return home;
+    }
+  }
+  static std::uint64_t key_of(int x, int y, int z) {
     return static_cast<std::uint64_t>(static_cast<std::uint16_t>(x)) << 32 |
            static_cast<std::uint64_t>(static_cast<std::uint16_t>(y)) << 16 | static_cast<std::uint64_t>(static_cast<std::uint16_t>(z));
   }
-  /// Where in the table the search for a key begins: the upper bits of a product with 2⁶⁴/φ (Knuth's multiplicative hashing).
-  [[nodiscard]] std::size_t table_slot(std::uint64_t key) const { return (key * 0x9E3779B97F4A7C15U) >> table_shift_; }
-  /// The number of a block, or kNone when nothing is there. Block coordinates are cube coordinates divided by 4.
-  [[nodiscard]] std::uint32_t find_block(int x, int y, int z) const {
-    const std::uint64_t key = block_key(x, y, z);
-    for (std::size_t slot = table_slot(key);; slot = slot + 1 < table_.size() ? slot + 1 : 0) {
-      if (table_[slot].block == kNone) return kNone;
-      if (table_[slot].key == key) return table_[slot].block;
+  static int tier_of(Home home) { return home.size() / kSizes; }
+  static std::uint64_t block_key(Home home) {
+    const int shift = kSizes - 1 - home.size() % kSizes;
+    return key_of(home.cube(0) >> shift, home.cube(1) >> shift, home.cube(2) >> shift);
+  }
+  static std::uint32_t slot_of(Home home) {
+    const int size = home.size() % kSizes, bits = kSizes - 1 - size, mask = (1 << bits) - 1;
+    return kFirstSlot[static_cast<std::size_t>(size)] +
+           static_cast<std::uint32_t>((home.cube(0) & mask) << 2 * bits | (home.cube(1) & mask) << bits | (home.cube(2) & mask));
+  }
+  /// The blocks with homes of what may overlap a box, for cubes of up to 2^size (in the tier's own halves).
+  static BlockRange blocks_for(const Halves& h, int size) {
+    BlockRange range{};
+    for (int i = 0; i < 3; ++i) {
+      range.low[i] = first_cube(h.low[i], size) >> (kSizes - 1 - size);
+      range.high[i] = last_cube(h.high[i], size) >> (kSizes - 1 - size);
+    }
+    return range;
+  }
+
+  template <class Visit>
+  void visit_all(const Query& query, const Visit& visit) const {
+    for (std::uint32_t f = 0; f < places_.size(); ++f)
+      if (query.overlaps(places_[f])) visit(f);
+  }
+  template <class Visit>
+  void visit_tier(int t, const Halves& halves, const Query& query, const Visit& visit) const {
+    const Tier& tier = tiers_[static_cast<std::size_t>(t)];
+    const BlockRange range = blocks_for(halves, tier.largest_size);
+    for (int x = range.low[0]; x <= range.high[0]; ++x) {
+      for (int y = range.low[1]; y <= range.high[1]; ++y) {
+        for (int z = range.low[2]; z <= range.high[2]; ++z) {
+          const std::uint32_t block = tier.find(key_of(x, y, z));
+          if (block != kNone) visit_block(t, block, {x, y, z}, halves, query, visit);
+        }
+      }
     }
   }
-  static CubeRange united(const CubeRange& a, const CubeRange& b) {
-    return {{std::min(a.low[0], b.low[0]), std::min(a.low[1], b.low[1]), std::min(a.low[2], b.low[2])},
-            {std::max(a.high[0], b.high[0]), std::max(a.high[1], b.high[1]), std::max(a.high[2], b.high[2])}};
-  }
-  static std::int64_t cube_count(const CubeRange& r) {
-    return std::int64_t{r.high[0] - r.low[0] + 1} * (r.high[1] - r.low[1] + 1) * (r.high[2] - r.low[2] + 1);
+  template <class Visit>
+  void visit_block(int t, std::uint32_t block, const std::array<int, 3>& place, const Halves& halves, const Query& query,
+                   const Visit& visit) const {
+    const Tier& tier = tiers_[static_cast<std::size_t>(t)];
+    const std::array<std::uint64_t, 2>& occupied = tier.blocks[block].occupied;
+    for (int size = 0; size <= tier.largest_size; ++size) {
+      const int bits = kSizes - 1 - size, last = (1 << bits) - 1;
+      int low[3], high[3];
+      for (std::size_t i = 0; i < 3; ++i) {
+        low[i] = std::max(first_cube(halves.low[i], size) - (place[i] << bits), 0);
+        high[i] = std::min(last_cube(halves.high[i], size) - (place[i] << bits), last);
+      }
+      for (int x = low[0]; x <= high[0]; ++x) {
+        for (int y = low[1]; y <= high[1]; ++y) {
+          for (int z = low[2]; z <= high[2]; ++z) {
+            const std::uint32_t slot =
+                kFirstSlot[static_cast<std::size_t>(size)] + static_cast<std::uint32_t>(x << 2 * bits | y << bits | z);
+            if ((occupied[slot >> 6] >> (slot & 63) & 1) == 0) continue;
+            const Home home((place[0] << bits) + x, (place[1] << bits) + y, (place[2] << bits) + z, kSizes * t + size);
+            visit_slot(tier, block, slot, home, query, visit);
+          }
+        }
+      }
+    }
   }
   template <class Visit>
-  void visit_all(const PackedQuery& query, const Visit& visit) const {
-    for (std::uint32_t f = 0; f < boxes_.size(); ++f)
-      if (query.overlaps(boxes_[f])) visit(f);
-  }
-  template <class Visit>
-  void visit_block(int bx, int by, int bz, const CubeRange& cubes, const PackedQuery& query, const Visit& visit) const {
-    const std::uint32_t block = find_block(bx, by, bz);
-    if (block == kNone) return;
-    const int x_end = std::min<int>(cubes.high[0], bx * 4 + 3), y_end = std::min<int>(cubes.high[1], by * 4 + 3),
-              z_end = std::min<int>(cubes.high[2], bz * 4 + 3);
-    for (int x = std::max<int>(cubes.low[0], bx * 4); x <= x_end; ++x)
-      for (int y = std::max<int>(cubes.low[1], by * 4); y <= y_end; ++y)
-        for (int z = std::max<int>(cubes.low[2], bz * 4); z <= z_end; ++z) visit_cube(block, x, y, z, cubes, query, visit);
-  }
-  template <class Visit>
-  void visit_cube(std::uint32_t block, int x, int y, int z, const CubeRange& cubes, const PackedQuery& query, const Visit& visit) const {
-    const std::size_t cube = std::size_t{block} * kCubesPerBlock + static_cast<std::size_t>(cube_in_block(x, y, z));
-    // A triangle listed by several cubes of the query is visited in the first of them; one that was set apart since, not here.
-    const auto is_first = [&](const CubeRange& listed) {
-      return static_cast<bool>((x == std::max(listed.low[0], cubes.low[0])) & (y == std::max(listed.low[1], cubes.low[1])) &
-                               (z == std::max(listed.low[2], cubes.low[2])) & (listed.low[0] != kApart));
-    };
+  void visit_slot(const Tier& tier, std::uint32_t block, std::uint32_t slot, Home home, const Query& query, const Visit& visit) const {
     const auto try_face = [&](std::uint32_t f) {
-      if (query.overlaps(boxes_[f]) && is_first(ranges_[f])) visit(f);
+      if (query.overlaps(places_[f]) && places_[f].home == home) visit(f);
     };
-    for (std::uint32_t i = cube_begin_[cube]; i < cube_begin_[cube + 1]; ++i) try_face(entries_[i]);
-    const std::vector<AddedEntry>& added = blocks_[block].added;
-    for (std::uint32_t i = added_head_[cube]; i != kNone; i = added[i].next) try_face(added[i].face);
+    const std::size_t i = std::size_t{block} * kSlotsPerBlock + slot;
+    for (std::uint32_t k = tier.begin[i]; k < tier.begin[i + 1]; ++k) try_face(tier.entries[k]);
+    const std::vector<AddedEntry>& added = tier.blocks[block].added;
+    for (std::uint32_t k = tier.added_head[i]; k != kNone; k = added[k].next) try_face(added[k].face);
   }
 
   void choose_frame(const std::vector<Vec3>& points);
-  void choose_cube_size(const std::vector<Box>& boxes);
-  void sort_into_cubes();
-  std::uint32_t find_or_add_block(int x, int y, int z);
-  void put_into_table(std::uint64_t key, std::uint32_t block);
-  void grow_table();
-  [[nodiscard]] bool has_blocks_for(const CubeRange& range) const;
-  void add_blocks_for(const CubeRange& range);
-  void list(std::uint32_t f, int x, int y, int z);
-  void extend(std::uint32_t f, const CubeRange& range);
-  void set_apart(std::uint32_t f);
+  void choose_cube_size();
+  void build_lists();
+  [[nodiscard]] bool has_block_for(Home home) const;
+  void settle(std::uint32_t f, const Halves& halves);
+  void list(std::uint32_t f, Home home);
 
   Vec3 origin_ = Vec3::Zero();
-  float cubes_per_unit_ = 1;
+  float halves_per_unit_ = 1;
   float half_extent_ = 0;
-  int table_shift_ = 0;
-  std::vector<PackedBox> boxes_;   // per triangle
-  std::vector<CubeRange> ranges_;  // per triangle: the cubes that list it
-  std::vector<TableEntry> table_;  // open addressing, at most half full
-  std::vector<Block> blocks_;
-  std::vector<std::uint32_t> cube_begin_;  // per cube of each block, into entries_
-  std::vector<std::uint32_t> entries_;
-  std::vector<std::uint32_t> added_head_;  // per cube of each block, into the block's added entries
-  std::vector<std::uint32_t> large_;       // triangles that cover too many cubes: tested by every query
+  std::vector<Place> places_;  // per triangle
+  std::vector<Tier> tiers_;
 };
 
 }  // namespace smopt

@@ -38,8 +38,8 @@ void ExactGuard::select(const StarMove& move, const Vec3& reach) {
 bool ExactGuard::is_within_region() const {
   if (region_ == nullptr) return true;
   const std::span<const FaceId> faces = move_->faces();
-  return region_->contains(surface_.grid.cubes_of(reach_box_)) &&
-         std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return region_->contains(surface_.grid.listing(f)); });
+  return region_->contains(surface_.grid.reading(reach_box_)) &&
+         std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return region_->contains(surface_.grid.home(f)); });
 }
 
 bool ExactGuard::is_ok() {
@@ -55,7 +55,7 @@ bool ExactGuard::is_ok() {
 void ExactGuard::fetch_surroundings() {
   Box space = reach_box_;
   for (const VertexId v : group_) space.unite(star_box(v));
-  if (region_ != nullptr && !region_->contains(surface_.grid.cubes_of(space))) space = reach_box_;
+  if (region_ != nullptr && !region_->contains(surface_.grid.reading(space))) space = reach_box_;
   surroundings_.gather(surface_.grid, surface_.mesh.points, surface_.mesh.triangles, space, move_->position());
 }
 
@@ -136,55 +136,70 @@ bool ExactGuard::is_ring_vertex_seen_along(VertexId w, const Eigen::Vector3f& ax
 }
 
 void ExactGuard::draw_outline() {
+  settled_ = with_cone_ = 0;
   has_outline_ = at_target_.is_projected && move_->valence() <= StarOutline::kMaxValence;
   if (!has_outline_) return;
   const Eigen::Vector3f axis = single(surface_.cones[move_->vertex()]);
   outline_.set(move_->spokes(), move_->displacement(), axis, move_->position() - surroundings_.center(), surroundings_.radius());
-  seen_ = 0;
   for (std::size_t k = 0; k < move_->valence(); ++k) {
-    if (!is_ring_vertex_seen_along(move_->ring()[k], axis)) continue;
-    seen_ |= 1U << k;
-    if (outline_.is_convex_at(k)) settled_.mark(move_->ring()[k]);
+    const VertexId w = move_->ring()[k];
+    with_cone_ |= (is_known(at_target_.ring_cones[k]) ? 1U : 0U) << k;
+    if (outline_.is_convex_at(k) && is_ring_vertex_seen_along(w, axis)) settled_ |= 1U << k;
+    bits_.set(w, 1U << k);
   }
 }
 
 bool ExactGuard::is_clear_of_surroundings() {
+  bits_.set(move_->vertex(), VertexBits::kCenter);  // before the ring: it must have its bit
   draw_outline();
-  star_places_.clear();
-  const VertexId v = move_->vertex();
-  const bool is_clear = surroundings_.all_overlapping(reach_box_, [&](std::size_t i) {
-    const TriangleBatch::Entry& entry = surroundings_[i];
-    if (entry.corners[0] == v || entry.corners[1] == v || entry.corners[2] == v) {
-      star_places_.push_back(i);
-      return true;
-    }
-    if (settled_.has_any_of(entry.corners)) return true;
-    return (has_outline_ && is_clear_by_outline(entry)) || is_clear_of(entry);
+  sort_surroundings();
+  return std::all_of(open_.begin(), open_.end(), [&](const Open& open) {
+    const TriangleBatch::Entry& triangle = surroundings_[open.place];
+    return (has_outline_ && is_clear_by_outline(triangle, open.own)) || is_clear_of(triangle);
   });
-  for (const VertexId w : move_->ring()) settled_.unmark(w);
-  return is_clear;
 }
 
-bool ExactGuard::is_clear_by_outline(const TriangleBatch::Entry& triangle) const {
-  if (outline_.is_clear_of(triangle)) return true;
-  unsigned own = 0;
-  for (const VertexId corner : triangle.corners)
-    for (std::size_t k = 0; k < move_->valence(); ++k) own |= (move_->ring()[k] == corner ? 1U : 0U) << k;
-  return own != 0 && (own & ~seen_) == 0 && outline_.is_parted_from_others(triangle, own);
+/// Without branches, which would be mispredicted.
+void ExactGuard::sort_surroundings() {
+  const std::span<const std::uint32_t> near = surroundings_.near(reach_box_);
+  star_places_.resize(near.size());
+  open_.resize(near.size());
+  std::size_t in_star = 0, open = 0;
+  for (const std::uint32_t i : near) {
+    const unsigned own = bits_.of(surroundings_[i].corners);
+    star_places_[in_star] = i;
+    in_star += own >> 31;
+    open_[open] = {i, own};
+    open += (own & (settled_ | VertexBits::kCenter)) == 0 ? 1 : 0;
+  }
+  star_places_.resize(in_star);
+  open_.resize(open);
+  bits_.unset(move_->vertex());
+  if (!has_outline_) return;
+  for (const VertexId w : move_->ring()) bits_.unset(w);
+}
+
+bool ExactGuard::is_clear_by_outline(const TriangleBatch::Entry& triangle, unsigned own) const {
+  if (own == 0) return outline_.is_clear_of(triangle);
+  // The cones of shared vertices settle the star's triangles that have them.
+  return (own & ~with_cone_) == 0 && outline_.is_parted_from_others(triangle, own);
 }
 
 void ExactGuard::compute_boxes() {
   const std::vector<Vec3>& ring = move_->ring_points();
-  at_target_.boxes.clear();
-  for (std::size_t k = 0; k < ring.size(); ++k)
-    at_target_.boxes.push_back(surface_.grid.box_of(move_->target(), ring[k], ring[move_->next(k)]));
+  const std::span<const FaceId> faces = move_->faces();
+  at_target_.boxes.resize(ring.size());
+  at_target_.leaves_home.resize(ring.size());
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    at_target_.boxes[k] = surface_.grid.box_of(move_->target(), ring[k], ring[move_->next(k)]);
+    at_target_.leaves_home[k] = surface_.grid.stays_at_home(faces[k], at_target_.boxes[k]) ? 0 : 1;
+  }
 }
 
 bool ExactGuard::must_wait() const {
   if (region_ == nullptr) return false;
-  const std::span<const FaceId> faces = move_->faces();
-  for (std::size_t k = 0; k < faces.size(); ++k)
-    if (surface_.grid.needs_new_block(faces[k], at_target_.boxes[k])) return true;
+  for (std::size_t k = 0; k < move_->valence(); ++k)
+    if (at_target_.leaves_home[k] != 0 && surface_.grid.needs_whole_grid(at_target_.boxes[k])) return true;
   return false;
 }
 
@@ -194,9 +209,12 @@ void ExactGuard::apply() {
   const std::span<const FaceId> faces = move_->faces();
   for (std::size_t k = 0; k < faces.size(); ++k) {
     surface_.cones[move_->ring()[k]] = at_target_.ring_cones[k];
-    surface_.grid.move(faces[k], at_target_.boxes[k]);
+    if (at_target_.leaves_home[k] != 0)
+      surface_.grid.move(faces[k], at_target_.boxes[k]);
+    else
+      surface_.grid.move_at_home(faces[k], at_target_.boxes[k]);
   }
-  for (const std::size_t i : star_places_)
+  for (const std::uint32_t i : star_places_)
     surroundings_.move_corner(i, move_->vertex(), move_->target(), surface_.grid.box(surroundings_[i].face));
 }
 

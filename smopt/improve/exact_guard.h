@@ -37,30 +37,36 @@ class ExactGuard final : public MoveGuard {
   void select(const StarMove& move, const Vec3& reach) override;
   [[nodiscard]] bool is_within_region() const override;
   [[nodiscard]] bool is_ok() override;
-  /// \copydoc MoveGuard::must_wait  It would need a new block of the grid (see `TriangleGrid::needs_new_block`).
+  /// \copydoc MoveGuard::must_wait  It would change more of the grid than the region has (see `TriangleGrid::needs_whole_grid`).
   [[nodiscard]] bool must_wait() const override;
   void apply() override;
 
  private:
-  /// Vertices by a part of their number: tells at once, and without fail, which corners of a triangle are marked; a vertex that finds its
-  /// place taken stays unmarked.
-  class VertexMarks {
+  /// A bit for each ring vertex of a short ring, and one for the vertex itself: which of them a triangle has. Kept by a part of the vertex's
+  /// number; a vertex that finds its place taken has no bit, and its triangles get the general treatment.
+  class VertexBits {
    public:
-    VertexMarks() { places_.fill(kFree); }
-    void mark(VertexId v) {
-      if (places_[v % kPlaces] == kFree) places_[v % kPlaces] = v;
+    static constexpr unsigned kCenter = 1U << 31;
+    VertexBits() { places_.fill({kFree, 0}); }
+    void set(VertexId v, unsigned bit) {
+      Place& place = places_[v % kPlaces];
+      if (place.vertex == kFree) place = {v, bit};
     }
-    void unmark(VertexId v) {
-      if (places_[v % kPlaces] == v) places_[v % kPlaces] = kFree;
-    }
-    [[nodiscard]] bool has_any_of(const std::array<VertexId, 3>& t) const {
-      return static_cast<bool>((places_[t[0] % kPlaces] == t[0]) | (places_[t[1] % kPlaces] == t[1]) | (places_[t[2] % kPlaces] == t[2]));
-    }
+    void unset(VertexId v) { places_[v % kPlaces] = {kFree, 0}; }
+    [[nodiscard]] unsigned of(const std::array<VertexId, 3>& t) const { return of(t[0]) | of(t[1]) | of(t[2]); }
 
    private:
+    struct Place {
+      VertexId vertex;
+      unsigned bit;
+    };
+    [[nodiscard]] unsigned of(VertexId v) const {
+      const Place& place = places_[v % kPlaces];
+      return place.bit & (0U - static_cast<unsigned>(place.vertex == v));
+    }
     static constexpr std::size_t kPlaces = 256;
     static constexpr VertexId kFree = 0xFFFFFFFF;
-    std::array<VertexId, kPlaces> places_{};
+    std::array<Place, kPlaces> places_{};
   };
   /// What the last answer has found out about the star at the target.
   struct StarAtTarget {
@@ -69,6 +75,7 @@ class ExactGuard final : public MoveGuard {
     std::vector<NormalCone> ring_cones;       // the ring vertices'
     bool is_projected = false;                // along the axis that the vertex had already, with room for rounding
     std::vector<Box> boxes;                   // of the triangles, in the grid's frame
+    std::vector<char> leaves_home;            // whether the grid has to list a triangle elsewhere
   };
 
   void fetch_surroundings();
@@ -81,8 +88,9 @@ class ExactGuard final : public MoveGuard {
   void judge_ring_cones();
   void draw_outline();
   [[nodiscard]] bool is_ring_vertex_seen_along(VertexId w, const Eigen::Vector3f& axis) const;
+  void sort_surroundings();
   [[nodiscard]] bool is_clear_of_surroundings();
-  [[nodiscard]] bool is_clear_by_outline(const TriangleBatch::Entry& triangle) const;
+  [[nodiscard]] bool is_clear_by_outline(const TriangleBatch::Entry& triangle, unsigned own) const;
   [[nodiscard]] bool is_clear_of(const TriangleBatch::Entry& triangle);
   void prepare_separation();
   void compute_boxes();
@@ -107,9 +115,15 @@ class ExactGuard final : public MoveGuard {
   StarAtTarget at_target_;
   StarOutline outline_;
   bool has_outline_ = false;
-  unsigned seen_ = 0;                     // a bit per ring vertex: its star is seen one-to-one along the outline's axis too
-  VertexMarks settled_;                   // the vertex, and ring vertices whose triangles need no look
-  std::vector<std::size_t> star_places_;  // of the star's triangles in the surroundings
+  unsigned with_cone_ = 0;  // a bit per ring vertex: its cone is known
+  VertexBits bits_;
+  unsigned settled_ = 0;                    // ring vertices whose triangles need no look
+  std::vector<std::uint32_t> star_places_;  // of the star's triangles in the surroundings
+  struct Open {
+    std::uint32_t place;  // in the surroundings
+    unsigned own;         // ring vertices that the triangle has
+  };
+  std::vector<Open> open_;  // triangles that may be in the way
   bool is_separation_ready_ = false;
   SweepSeparation separation_;
   MovingStar scratch_star_;

@@ -18,6 +18,8 @@ struct ImproveReport {
   PreparationReport preparation;
   RedundantPointReport redundant;
   SmoothingReport smoothing;
+  double volume_before_smoothing = 0;  ///< enclosed, Å³; cavities count negative
+  double volume_after_smoothing = 0;
   StageTimes seconds;  ///< "validity", "cavities", "redundant" and "smoothing"
 };
 

@@ -10,25 +10,27 @@
 #include "smopt/improve/screening.h"
 #include "smopt/improve/sweep_schedule.h"
 #include "smopt/improve/vertex_mover.h"
-#include "smopt/mesh/orientation.h"
 #include "smopt/mesh/rings.h"
+#include "smopt/mesh/spatial_order.h"
 
 namespace smopt {
 namespace {
 
 class Smoother {
  public:
-  Smoother(TriangleMesh& mesh, const VertexRings& rings, const SmoothingOptions& options, const ProgressCallback& progress)
+  /// \param order  all vertices, in the order in which each block of the schedule visits its own.
+  Smoother(TriangleMesh& mesh, const VertexRings& rings, const std::vector<VertexId>& order, const SmoothingOptions& options,
+           const ProgressCallback& progress)
       : options_(options),
         progress_(progress),
+        order_(order),
         surface_(mesh, rings),
         movers_([this] { return VertexMover(surface_, options_, GuardFactory(options_.guard, surface_, options_.vicinity)()); }),
         is_stuck_(mesh.vertex_count(), 0) {}
 
   SmoothingReport run() {
-    report_.volume_before = signed_volume(surface_.mesh);
     Screening screening(surface_.mesh, surface_.rings, options_.thresholds);
-    sweep(SweepSchedule(surface_.grid, surface_.mesh, vertices_with_star()));
+    sweep(SweepSchedule(surface_.grid, surface_.mesh, vertices_with_star(order_)));
     ActiveSet active = screening.of_all();
     while (!is_finished(active)) {
       sweep_until_screening(SweepSchedule(surface_.grid, surface_.mesh, active.vertices));
@@ -36,15 +38,14 @@ class Smoother {
     }
     report_.low_quality = active.low_quality;
     report_.stuck = static_cast<std::size_t>(std::count(is_stuck_.begin(), is_stuck_.end(), 1));
-    report_.volume_after = signed_volume(surface_.mesh);
     return std::move(report_);
   }
 
  private:
-  [[nodiscard]] std::vector<VertexId> vertices_with_star() const {
+  [[nodiscard]] std::vector<VertexId> vertices_with_star(const std::vector<VertexId>& order) const {
     std::vector<VertexId> vertices;
-    vertices.reserve(surface_.mesh.vertex_count());
-    for (VertexId v = 0; v < surface_.mesh.vertex_count(); ++v)
+    vertices.reserve(order.size());
+    for (const VertexId v : order)
       if (surface_.rings.valence(v) > 0) vertices.push_back(v);
     return vertices;
   }
@@ -153,6 +154,7 @@ class Smoother {
 
   const SmoothingOptions& options_;
   const ProgressCallback& progress_;
+  const std::vector<VertexId>& order_;
   GuardedSurface surface_;
   tbb::enumerable_thread_specific<VertexMover> movers_;
   std::vector<char> is_stuck_;     // per vertex: refused, and nothing around it has moved since
@@ -180,12 +182,14 @@ SmoothingReport smooth(TriangleMesh& mesh, const SmoothingOptions& options, cons
   if (options.rounds == 0) {
     SmoothingReport report;
     report.stopped_because = "rounds";
-    report.volume_before = report.volume_after = signed_volume(mesh);
     return report;
   }
-  const std::optional<VertexRings> rings = build_rings(mesh);
+  SpatiallyOrderedMesh ordered(mesh);
+  const std::optional<VertexRings> rings = build_rings(ordered.mesh());
   if (!rings) throw InvalidMesh("smoothing needs a closed, oriented manifold");
-  return Smoother(mesh, *rings, options, progress).run();
+  const SmoothingReport report = Smoother(ordered.mesh(), *rings, ordered.in_original_order(), options, progress).run();
+  ordered.copy_points_to(mesh);
+  return report;
 }
 
 }  // namespace smopt

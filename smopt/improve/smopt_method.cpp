@@ -112,8 +112,8 @@ MethodReport run_smopt(TriangleMesh& mesh, const OptionValues& values, const Pro
   report.rounds = std::move(improved.smoothing.rounds);
   report.moves = improved.smoothing.moves;
   report.stuck = improved.smoothing.stuck;
-  report.volume_before = improved.smoothing.volume_before;
-  report.volume_after = improved.smoothing.volume_after;
+  report.volume_before = improved.volume_before_smoothing;
+  report.volume_after = improved.volume_after_smoothing;
   report.stopped_because = improved.smoothing.stopped_because;
   report.seconds = std::move(improved.seconds);
   return report;

@@ -25,7 +25,7 @@ class Checked {
   explicit Checked(const TriangleMesh& mesh) : mesh_(mesh), grid_(mesh.points, mesh.triangles) {}
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const TriangleBatch& batch() const { return batch_; }
+  [[nodiscard]] TriangleBatch& batch() { return batch_; }
   [[nodiscard]] Box box(std::size_t f) const {
     const auto [a, b, c] = mesh_.triangles[f];
     return grid_.box_of(mesh_.points[a], mesh_.points[b], mesh_.points[c]);
@@ -35,16 +35,30 @@ class Checked {
     return grid_.box_of(Vec3(point - Vec3::Constant(half_edge)), Vec3(point + Vec3::Constant(half_edge)));
   }
 
-  void gather(const Box& space, const Vec3& center) { batch_.gather(grid_, mesh_.points, mesh_.triangles, space, center); }
+  void gather(const Box& space, const Vec3& center) {
+    space_ = space;
+    batch_.gather(grid_, mesh_.points, mesh_.triangles, space, center);
+  }
 
-  /// The triangles that the batch visits, in its order.
-  [[nodiscard]] std::vector<std::uint32_t> visited(const Box& query) const {
+  /// The triangles near the box, in the order of the batch. None of them misses it by more than a step of the space.
+  [[nodiscard]] std::vector<std::uint32_t> near(const Box& query) {
+    Box wider = query;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float step = (space_.high[axis] - space_.low[axis]) / 60000;
+      wider.low[axis] -= step;
+      wider.high[axis] += step;
+    }
     std::vector<std::uint32_t> faces;
-    const bool was_never_stopped = batch_.all_overlapping(query, [&](std::size_t i) {
+    for (const std::uint32_t i : batch_.near(query)) {
       faces.push_back(batch_[i].face);
-      return true;
-    });
-    EXPECT_TRUE(was_never_stopped);
+      EXPECT_TRUE(box(faces.back()).overlaps(wider)) << "face " << faces.back();
+    }
+    return faces;
+  }
+  /// Those of them whose boxes overlap the box.
+  [[nodiscard]] std::vector<std::uint32_t> visited(const Box& query) {
+    std::vector<std::uint32_t> faces = near(query);
+    std::erase_if(faces, [&](std::uint32_t f) { return !box(f).overlaps(query); });
     return faces;
   }
   [[nodiscard]] std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> faces) const {
@@ -61,10 +75,8 @@ class Checked {
   /// Moves a vertex in the mesh and in the batch, whose space must hold its triangles before and after.
   void move(VertexId v, const Vec3& to) {
     std::vector<std::size_t> entries;
-    batch_.all_overlapping(around_star(v), [&](std::size_t i) {
+    for (const std::uint32_t i : batch_.near(around_star(v)))
       if (std::ranges::count(batch_[i].corners, v) > 0) entries.push_back(i);
-      return true;
-    });
     mesh_.points[v] = to;
     for (const std::size_t i : entries) batch_.move_corner(i, v, to, box(batch_[i].face));
   }
@@ -79,6 +91,7 @@ class Checked {
   TriangleMesh mesh_;
   TriangleGrid grid_;
   TriangleBatch batch_;
+  Box space_;
 };
 
 class Random {
@@ -93,10 +106,10 @@ class Random {
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
 
-void expect_entries_of_the_mesh(const Checked& checked, const Box& space) {
-  const TriangleBatch& batch = checked.batch();
+void expect_entries_of_the_mesh(Checked& checked, const Box& space) {
+  TriangleBatch& batch = checked.batch();
   float largest = 0;
-  batch.all_overlapping(space, [&](std::size_t i) {
+  for (const std::uint32_t i : batch.near(space)) {
     const TriangleBatch::Entry& entry = batch[i];
     EXPECT_EQ(entry.corners, checked.mesh().triangles[entry.face]);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -105,8 +118,7 @@ void expect_entries_of_the_mesh(const Checked& checked, const Box& space) {
       EXPECT_EQ(kept, exact.cast<float>()) << "face " << entry.face << ", lane " << lane;
       largest = std::max(largest, kept.cwiseAbs().maxCoeff());
     }
-    return true;
-  });
+  }
   EXPECT_GE(batch.radius(), largest);
 }
 
@@ -205,18 +217,15 @@ TEST(TriangleBatch, ForgetsWhatItHadBefore) {
   EXPECT_EQ(checked.batch().radius(), radius_of_first);
 }
 
-TEST(TriangleBatch, StopsWhenToldAndSaysSo) {
+TEST(TriangleBatch, NamesEachEntryOnceInAscendingOrder) {
   const TriangleMesh mesh = icosphere(2);
   Checked checked(mesh);
   const Box space = checked.around({0, 0, 0}, 2);
   checked.gather(space, {0, 0, 0});
-  for (const std::size_t limit : {1U, 2U, 3U, 4U, 5U, 100U, 319U}) {
-    std::size_t visits = 0;
-    EXPECT_FALSE(checked.batch().all_overlapping(space, [&](std::size_t) { return ++visits < limit; }));
-    EXPECT_EQ(visits, limit);
-  }
-  const Box outside = checked.around({0, 0, 0}, 0.1);
-  EXPECT_TRUE(checked.batch().all_overlapping(outside, [](std::size_t) { return false; })) << "nothing to stop at";
+  const std::span<const std::uint32_t> all = checked.batch().near(space);
+  ASSERT_EQ(all.size(), mesh.triangle_count());
+  for (std::uint32_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i);
+  EXPECT_TRUE(checked.batch().near(checked.around({0, 0, 0}, 0.1)).empty());
 }
 
 TEST(TriangleBatch, VisitsInTheSameOrderEveryTime) {
@@ -255,8 +264,7 @@ TEST(TriangleBatch, KnowsWhereCornersHaveMoved) {
   }
 }
 
-// Fails: the radius stays what it was when the triangles were copied, though margins of single precision are derived from it.
-TEST(TriangleBatch, DISABLED_TheRadiusBoundsCornersThatHaveMovedOutwardsToo) {
+TEST(TriangleBatch, TheRadiusBoundsCornersThatHaveMovedOutwardsToo) {
   Checked checked(icosphere(0));
   const Box space = checked.around({0, 0, 0}, 50);
   checked.gather(space, {0, 0, 0});
@@ -272,7 +280,7 @@ TEST(TriangleBatch, ATriangleTakenOutOfTheGridIsNotCopied) {
   const Box space = grid.box_of(Vec3(Vec3::Constant(-2)), Vec3(Vec3::Constant(2)));
   batch.gather(grid, mesh.points, mesh.triangles, space, Vec3::Zero());
   std::set<std::uint32_t> faces;
-  batch.all_overlapping(space, [&](std::size_t i) { return faces.insert(batch[i].face).second; });
+  for (const std::uint32_t i : batch.near(space)) faces.insert(batch[i].face);
   EXPECT_EQ(faces.size(), mesh.triangle_count() - 1);
   EXPECT_EQ(faces.count(17), 0U);
 }
