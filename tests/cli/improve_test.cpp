@@ -223,5 +223,102 @@ TEST_F(Improve, TheOutputMayBeADevice) {
   EXPECT_TRUE(std::filesystem::is_symlink(path_in(folder, "null.off")));
 }
 
+// ---- Guards and orders ----
+
+TEST_F(Improve, RunsWithEveryGuardAndOrder) {
+  const std::vector<std::vector<std::string>> others = {
+      {"--guard", "paper", "--vicinity", "3"}, {"--guard", "none"}, {"--order", "jacobi"}, {"--guard", "paper", "--order", "jacobi"}};
+  for (const std::vector<std::string>& options : others) {
+    const json report = report_of(options);
+    for (std::size_t i = 0; i < options.size(); i += 2) {
+      const json& value = report["options"][options[i].substr(2)];
+      EXPECT_EQ(value.is_string() ? value.get<std::string>() : value.dump(), options[i + 1]);
+    }
+    EXPECT_GT(report["moves"]["accepted"], 0) << options[1];
+    EXPECT_THAT(read_mesh(output), IsClosedManifold());
+  }
+}
+
+TEST_F(Improve, TheExactGuardAndGaussSeidelAreTheDefaults) {
+  const auto output_of = [&](const std::vector<std::string>& options) {
+    EXPECT_EQ(improve(options).exit_code, 0);
+    return bytes_of(output);
+  };
+  const std::string by_default = output_of({});
+  EXPECT_TRUE(output_of({"--guard", "exact", "--vicinity", "3", "--order", "gauss-seidel"}) == by_default)
+      << "the vicinity is the paper's guard's";
+  EXPECT_TRUE(output_of({"--order", "jacobi"}) != by_default);
+}
+
+TEST_F(Improve, VerifyShowsWhatTheOtherGuardsLetThrough) {
+  // A coarse shell shrinks fast through a fine sphere inside it.
+  put_mesh(folder, "in.off", joined(noisy(icosphere(1), 0.03, 1), noisy(icosphere(3, 0.8), 0.01, 1)));
+  const auto finds_pairs = [&](const std::string& guard, const std::string& rounds) {
+    const ProgramResult r = improve({"--guard", guard, "--rounds", rounds, "--verify", "--json", "--cavities", "keep", "--redundant",
+                                     "keep", "--bad-angles", "ignore", "--min-angle", "50", "--edge-ratio", "0.9"});
+    const bool has_pairs = json::parse(r.out)["verified"]["pairs_after"] != 0;
+    EXPECT_EQ(r.exit_code, has_pairs ? 1 : 0) << guard << ": " << r.err;
+    return has_pairs;
+  };
+  for (const std::string guard : {"paper", "none"})
+    EXPECT_TRUE(finds_pairs(guard, "1") || finds_pairs(guard, "2") || finds_pairs(guard, "4") || finds_pairs(guard, "8")) << guard;
+  for (const std::string rounds : {"1", "2", "4", "8"}) EXPECT_FALSE(finds_pairs("exact", rounds)) << rounds;
+}
+
+TEST_F(Improve, TheReportHasEveryRoundWithItsStuckVertices) {
+  for (const std::string guard : {"exact", "paper", "none"}) {
+    const json report = report_of({"--guard", guard, "--min-angle", "50", "--rounds", "12"});
+    ASSERT_EQ(report["each_round"].size(), report["rounds"].get<std::size_t>());
+    ASSERT_GT(report["each_round"].size(), 1U);
+    std::size_t accepted = 0, refused = 0;
+    for (const json& round : report["each_round"]) {
+      const auto number = [&](const char* key) { return round.at(key).get<std::size_t>(); };
+      EXPECT_LE(number("accepted") + number("refused") + number("stuck"), number("active")) << guard;
+      EXPECT_LE(number("shortened"), number("accepted"));
+      accepted += number("accepted");
+      refused += number("refused");
+    }
+    EXPECT_EQ(report["moves"]["accepted"], accepted);
+    EXPECT_EQ(report["moves"]["refused"], refused);
+    EXPECT_EQ(report["each_round"][0]["active"], mesh.vertex_count());
+    EXPECT_EQ(report["each_round"][0]["stuck"], 0);
+    EXPECT_TRUE(report["moves"]["stuck"].is_number());
+  }
+}
+
+TEST_F(Improve, TheReportHasTheVolumeBeforeAndAfterSmoothingAndItsChange) {
+  const std::vector<std::string> preserving = {"--step", "volume-preserving", "--min-angle", "50", "--redundant", "keep", "--rounds", "20"};
+  std::vector<std::string> all_at_once = preserving;
+  all_at_once.insert(all_at_once.end(), {"--order", "jacobi"});
+  for (const std::vector<std::string>& options : {preserving, all_at_once}) {
+    const json volume = report_of(options)["volume"];
+    const double before = volume.at("before_smoothing"), after = volume.at("after_smoothing"), change = volume.at("relative_change");
+    EXPECT_NEAR(before / enclosed_volume(mesh), 1, 1e-12);
+    EXPECT_NEAR(after / enclosed_volume(read_mesh(output)), 1, 1e-12);
+    EXPECT_NEAR(change, after / before - 1, 1e-15);
+  }
+  EXPECT_LT(std::abs(report_of(preserving)["volume"]["relative_change"].get<double>()), 1e-12);
+  EXPECT_GT(std::abs(report_of(all_at_once)["volume"]["relative_change"].get<double>()), 1e-9) << "drifts";
+}
+
+TEST_F(Improve, ReportsAnUnknownGuardOrOrderWithTheChoicesThereAre) {
+  struct Case {
+    std::vector<std::string> options, words;
+  };
+  const std::vector<Case> cases = {{{"--guard", "nonsense"}, {"guard", "nonsense", "exact", "paper", "none"}},
+                                   {{"--order", "random"}, {"order", "random", "gauss-seidel", "jacobi"}},
+                                   {{"--guard", "paper", "--vicinity", "0"}, {"vicinity", "1"}},
+                                   {{"--vicinity", "0"}, {"vicinity", "1"}},
+                                   {{"--vicinity", "-1"}, {"vicinity"}},
+                                   {{"--vicinity", "1.5"}, {"vicinity"}},
+                                   {{"--guard", ""}, {"guard", "exact"}}};
+  for (const auto& [options, words] : cases) {
+    const ProgramResult r = improve(options);
+    EXPECT_EQ(r.exit_code, 2) << options[1];
+    for (const std::string& word : words) EXPECT_THAT(r.err, HasSubstr(word)) << options[0] << " " << options[1];
+    EXPECT_THAT(files_in(folder), ::testing::ElementsAre("in.off")) << options[1];
+  }
+}
+
 }  // namespace
 }  // namespace smopt::testing
