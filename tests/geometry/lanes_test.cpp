@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace smopt {
@@ -37,6 +38,21 @@ TEST(Lanes, SmallerAndLargerAreChosenLaneByLane) {
     EXPECT_EQ(smaller[lane], std::min(a[lane], b[lane]));
     EXPECT_EQ(larger[lane], std::max(a[lane], b[lane]));
   }
+}
+
+TEST(Lanes, ABitPerLaneSaysWhichOfEightAreSet) {
+  using Halves = std::int16_t __attribute__((vector_size(16)));
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    Halves mask{};
+    for (unsigned lane = 0; lane < 8; ++lane) mask[lane] = (bits >> lane & 1) != 0 ? -1 : 0;
+    EXPECT_EQ(lanes_set(mask), bits);
+  }
+}
+
+TEST(Lanes, ThreeNumbersAreFollowedByZero) {
+  const float numbers[3] = {1, -2, 3};
+  EXPECT_TRUE(is_set_in_all(in_lanes(numbers) == Floats{1, -2, 3, 0}));
+  EXPECT_TRUE(is_set_in_all(absolute(in_lanes(numbers)) == Floats{1, 2, 3, 0}));
 }
 
 TEST(Lanes, OneNumberFillsAllLanes) {
