@@ -397,7 +397,9 @@ struct Neighbour {
 
 Neighbour random_neighbour(const Scene& scene, RandomScenes& random) {
   const std::size_t k = random.index(scene.valence()), other = random.index(scene.valence());
-  Corners t = random.index(2) == 0 ? random.touching_the_outline(scene) : random.anywhere(scene);
+  const std::size_t kind = random.index(3);
+  Corners t = kind == 0 ? random.touching_the_outline(scene) : (kind == 1 ? random.touching_a_sweep(scene) : random.anywhere(scene));
+  std::rotate(t.begin(), t.begin() + 2, t.end());  // the corner that touches is the second now
   unsigned own = 1U << k;
   t[0] = scene.ring[k];
   if (other != k && random.index(2) == 0) {
