@@ -78,9 +78,9 @@ StarOutline::Extent StarOutline::extent(const std::array<float, 3>& direction, f
 
 unsigned StarOutline::not_left_of(float x, float y, float dx, float dy, float margin) const {
   const Floats offset = in_all_lanes(dx * y - dy * x + margin);
-  unsigned points = 0;
-  for (std::size_t c = 0; c < points_.chunks; ++c) points |= lanes_set(dx * points_.y[c] - dy * points_.x[c] <= offset) << (kLanes * c);
-  return points;
+  unsigned left = 0;  // not a number is not to the left
+  for (std::size_t c = 0; c < points_.chunks; ++c) left |= lanes_set(dx * points_.y[c] - dy * points_.x[c] > offset) << (kLanes * c);
+  return ~left & ((4U << valence_) - 1);
 }
 
 void StarOutline::find_convex_corners() {

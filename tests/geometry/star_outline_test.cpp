@@ -621,6 +621,19 @@ TEST(StarOutline, SettlesTrianglesThatAreClearByAHundredthOfTheStar) {
   EXPECT_FALSE(outline.is_clear_of(entry_of(scene, level(0)))) << "touches the star";
 }
 
+TEST(StarOutline, ClaimsNothingWhereSinglePrecisionOverflows) {
+  for (const double scale : {1e20, 1e30, 1e37}) {
+    Scene scene{{}, Vec3::Zero(), {0, 0, 0.1 * scale}, Vec3::Zero(), Eigen::Vector3f::UnitZ()};
+    for (int k = 0; k < 6; ++k)
+      scene.ring.push_back(scale * Vec3(std::cos(k * std::numbers::pi / 3), std::sin(k * std::numbers::pi / 3), 0));
+    const Corners across{scale * Vec3(-3, -3, 0.05), scale * Vec3(3, -3, 0.05), scale * Vec3(0, 3, 0.05)};
+    const StarOutline outline = outline_of(scene, {across});
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_FALSE(outline.is_convex_at(k)) << scale;
+    EXPECT_FALSE(outline.is_clear_of(entry_of(scene, across))) << scale;
+    EXPECT_FALSE(outline.is_parted_from_others(entry_of(scene, across), 0)) << scale;
+  }
+}
+
 TEST(StarOutline, ASecondStarDoesNotRememberTheFirst) {
   RandomScenes random(131);
   StarOutline reused;
