@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "smopt/mesh/compact.h"
-#include "smopt/mesh/components.h"
 #include "smopt/mesh/nesting.h"
 #include "smopt/mesh/orientation.h"
+#include "smopt/mesh/parallel.h"
 
 namespace smopt {
 namespace {
@@ -39,38 +39,42 @@ std::vector<char> kept_components(const TriangleMesh& mesh, const Components& co
 }
 
 /// Vertices of each component.
-std::vector<std::size_t> count_vertices(const TriangleMesh& mesh, const Components& components) {
+std::vector<std::size_t> count_vertices(const Components& components) {
   std::vector<std::size_t> count(components.count, 0);
-  std::vector<char> is_seen(mesh.vertex_count(), 0);
-  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
-    for (const VertexId v : mesh.triangles[f]) {
-      count[components.of_triangle[f]] += is_seen[v] == 0 ? 1 : 0;
-      is_seen[v] = 1;
-    }
-  }
+  for (const std::uint32_t i : components.of_vertex)
+    if (i != Components::kNone) ++count[i];
   return count;
+}
+
+void keep_components(TriangleMesh& mesh, const Components& components, const std::vector<char>& is_kept) {
+  std::vector<char> is_triangle_kept(mesh.triangle_count());
+  for_ranges_in_parallel(mesh.triangle_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) is_triangle_kept[f] = is_kept[components.of_triangle[f]];
+  });
+  keep_triangles(mesh, is_triangle_kept);
+  remove_isolated_vertices(mesh);
 }
 
 }  // namespace
 
 CavityReport remove_cavities(TriangleMesh& mesh, CavityPolicy policy) {
-  const Components components = connected_components(mesh);
+  return remove_cavities(mesh, connected_components(mesh), policy);
+}
+
+CavityReport remove_cavities(TriangleMesh& mesh, const Components& components, CavityPolicy policy) {
   CavityReport report;
   report.components = components.count;
   if (policy == CavityPolicy::keep || components.count <= 1) return report;
   const Nesting nesting = component_nesting(mesh, components);
   const std::vector<char> is_kept = kept_components(mesh, components, nesting, policy);
-  const std::vector<std::size_t> vertices = count_vertices(mesh, components);
+  const std::vector<std::size_t> vertices = count_vertices(components);
   for (std::uint32_t i = 0; i < components.count; ++i) {
     if (is_kept[i] != 0) continue;
     const Kind kind = kind_of(nesting.depth[i]);
     (kind == Kind::outer ? report.outer_components : kind == Kind::cavity ? report.cavities : report.islands) += 1;
     (kind == Kind::outer ? report.outer_component_vertices : report.cavity_vertices) += vertices[i];
   }
-  std::vector<char> is_triangle_kept(mesh.triangle_count());
-  for (FaceId f = 0; f < mesh.triangle_count(); ++f) is_triangle_kept[f] = is_kept[components.of_triangle[f]];
-  keep_triangles(mesh, is_triangle_kept);
-  remove_isolated_vertices(mesh);
+  keep_components(mesh, components, is_kept);
   return report;
 }
 

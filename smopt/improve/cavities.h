@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "smopt/mesh/components.h"
 #include "smopt/mesh/triangle_mesh.h"
 
 namespace smopt {
@@ -25,7 +26,10 @@ struct CavityReport {
 
 /// Removes the components that the policy does not keep, and their vertices ("delete the small cavities inside the molecules", Liu et al.
 /// 2017, results). A component inside another one is told by containment, not by its orientation (see `component_nesting`). \pre mesh is a
-/// closed manifold. Cost: O(n).
+/// closed manifold. Cost: O(n), on all threads.
 CavityReport remove_cavities(TriangleMesh& mesh, CavityPolicy policy);
+
+/// The same where the components are known already.
+CavityReport remove_cavities(TriangleMesh& mesh, const Components& components, CavityPolicy policy);
 
 }  // namespace smopt

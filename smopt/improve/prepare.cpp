@@ -10,27 +10,30 @@
 namespace smopt {
 namespace {
 
-bool points_inwards(const TriangleMesh& mesh) {
-  const std::vector<double> volumes = component_volumes(mesh, connected_components(mesh));
+bool points_inwards(const TriangleMesh& mesh, const Components& components) {
+  const std::vector<double> volumes = component_volumes(mesh, components);
   const auto largest = std::max_element(volumes.begin(), volumes.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   return largest != volumes.end() && *largest < 0;
 }
 
-void check_and_orient(TriangleMesh& mesh, PreparationReport& report) {
+/// Returns the components of the mesh as it is then.
+Components check_and_orient(TriangleMesh& mesh, PreparationReport& report) {
   report.validity = check_validity(mesh);
   require_closed_manifold(report.validity);
   if (report.validity.isolated_vertices > 0) report.isolated_vertices = remove_isolated_vertices(mesh);
   if (!report.validity.is_oriented()) report.turned_triangles = orient_consistently(mesh);
-  report.was_inward = points_inwards(mesh);
+  Components components = connected_components(mesh);
+  report.was_inward = points_inwards(mesh, components);
   if (report.was_inward) reverse_orientation(mesh);
+  return components;
 }
 
 }  // namespace
 
 PreparationReport prepare(TriangleMesh& mesh, CavityPolicy cavities) {
   PreparationReport report;
-  timed(report.seconds, "validity", [&] { check_and_orient(mesh, report); });
-  report.cavities = timed(report.seconds, "cavities", [&] { return remove_cavities(mesh, cavities); });
+  const Components components = timed(report.seconds, "validity", [&] { return check_and_orient(mesh, report); });
+  report.cavities = timed(report.seconds, "cavities", [&] { return remove_cavities(mesh, components, cavities); });
   return report;
 }
 

@@ -1,6 +1,9 @@
 #include "smopt/mesh/compact.h"
 
+#include <atomic>
 #include <cassert>
+
+#include "smopt/mesh/parallel.h"
 
 namespace smopt {
 
@@ -14,17 +17,23 @@ void keep_triangles(TriangleMesh& mesh, const std::vector<char>& is_kept) {
 
 std::size_t remove_isolated_vertices(TriangleMesh& mesh) {
   std::vector<VertexId> new_id(mesh.vertex_count(), 0);
-  for (const Triangle& t : mesh.triangles)
-    for (const VertexId v : t) new_id[v] = 1;
+  for_ranges_in_parallel(mesh.triangle_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      for (const VertexId v : mesh.triangles[f]) std::atomic_ref(new_id[v]).store(1, std::memory_order_relaxed);
+  });
   VertexId kept = 0;
   for (VertexId v = 0; v < new_id.size(); ++v) {
     if (new_id[v] == 0) continue;
-    mesh.points[kept] = mesh.points[v];
+    if (kept != v) mesh.points[kept] = mesh.points[v];
     new_id[v] = kept++;
   }
   const std::size_t removed = mesh.vertex_count() - kept;
+  if (removed == 0) return 0;
   mesh.points.resize(kept);
-  for (Triangle& t : mesh.triangles) t = {new_id[t[0]], new_id[t[1]], new_id[t[2]]};
+  for_ranges_in_parallel(mesh.triangle_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      for (VertexId& v : mesh.triangles[f]) v = new_id[v];
+  });
   return removed;
 }
 

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include "smopt/geometry/predicates.h"
+#include "smopt/mesh/parallel.h"
 
 namespace smopt {
 namespace {
@@ -18,9 +22,10 @@ struct Ray {
 std::vector<Ray> rays_from_components(const TriangleMesh& mesh, const Components& components) {
   std::vector<Ray> rays(components.count);
   for (std::uint32_t i = 0; i < components.count; ++i) rays[i] = {Vec3::Constant(-std::numeric_limits<double>::infinity()), i};
-  for (FaceId f = 0; f < mesh.triangle_count(); ++f)
-    for (const VertexId v : mesh.triangles[f])
-      if (Ray& ray = rays[components.of_triangle[f]]; mesh.points[v][0] > ray.origin[0]) ray.origin = mesh.points[v];
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    if (components.of_vertex[v] == Components::kNone) continue;
+    if (Ray& ray = rays[components.of_vertex[v]]; mesh.points[v][0] > ray.origin[0]) ray.origin = mesh.points[v];
+  }
   return rays;
 }
 
@@ -34,29 +39,45 @@ class RayGrid {
       low_ = low_.cwiseMin(ray.origin);
       high = high.cwiseMax(ray.origin);
     }
-    cells_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(rays_.size()))), 1, 1024);
-    step_ = ((high - low_) / cells_).cwiseMax(std::numeric_limits<double>::min());
-    buckets_.resize(static_cast<std::size_t>(cells_) * cells_);
-    for (std::uint32_t i = 0; i < rays_.size(); ++i) buckets_[bucket(cell(rays_[i].origin, 1), cell(rays_[i].origin, 2))].push_back(i);
+    cells_ = std::clamp(static_cast<int>(kCellsPerRay * std::sqrt(static_cast<double>(rays_.size()))), 1, kMaxCells);
+    cells_per_unit_ = ((high - low_) / cells_).cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
+    sort_rays();
   }
 
+  /// Calls visit(ray) for every ray whose line passes through the box.
   template <class Visit>
   void for_rays_in_box(const Vec3& low, const Vec3& high, const Visit& visit) const {
-    const int y_end = cell(high, 1), z_end = cell(high, 2);
-    for (int y = cell(low, 1); y <= y_end; ++y)
-      for (int z = cell(low, 2); z <= z_end; ++z)
-        for (const std::uint32_t i : buckets_[bucket(y, z)]) visit(rays_[i]);
+    const int y_begin = cell(low, 1), y_end = cell(high, 1), z_begin = cell(low, 2), z_end = cell(high, 2);
+    for (int y = y_begin; y <= y_end; ++y) {
+      const std::uint32_t end = cell_begin_[bucket(y, z_end) + 1];
+      for (std::uint32_t i = cell_begin_[bucket(y, z_begin)]; i < end; ++i) {
+        const Vec3& origin = rays_[i].origin;
+        if (low[1] <= origin[1] && origin[1] <= high[1] && low[2] <= origin[2] && origin[2] <= high[2]) visit(rays_[i]);
+      }
+    }
   }
 
  private:
+  /// Along one axis, for each ray along it if they were a square: most cells are empty, and most triangles meet no ray.
+  static constexpr double kCellsPerRay = 4;
+  static constexpr int kMaxCells = 1024;
+
   [[nodiscard]] int cell(const Vec3& p, int axis) const {
-    return static_cast<int>(std::clamp((p[axis] - low_[axis]) / step_[axis], 0.0, cells_ - 1.0));
+    return static_cast<int>(std::clamp((p[axis] - low_[axis]) * cells_per_unit_[axis], 0.0, cells_ - 1.0));
   }
   [[nodiscard]] std::size_t bucket(int y, int z) const { return static_cast<std::size_t>(y) * cells_ + z; }
+  [[nodiscard]] std::size_t bucket(const Ray& ray) const { return bucket(cell(ray.origin, 1), cell(ray.origin, 2)); }
+
+  void sort_rays() {
+    std::ranges::stable_sort(rays_, {}, [&](const Ray& ray) { return bucket(ray); });
+    cell_begin_.assign(static_cast<std::size_t>(cells_) * cells_ + 1, 0);
+    for (const Ray& ray : rays_) ++cell_begin_[bucket(ray) + 1];
+    std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());
+  }
 
   std::vector<Ray> rays_;
-  std::vector<std::vector<std::uint32_t>> buckets_;
-  Vec3 low_, step_;
+  std::vector<std::uint32_t> cell_begin_;  // per cell, into rays_
+  Vec3 low_, cells_per_unit_;
   int cells_ = 1;
 };
 
@@ -79,20 +100,33 @@ bool ray_crosses(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& c
   return origin_side * normal_x < 0;                                  // the origin lies on the side of smaller x
 }
 
+/// One crossing of the ray from a component with another component: (ray's component, crossed component).
+using Crossing = std::pair<std::uint32_t, std::uint32_t>;
+
+/// All crossings, sorted, so that it does not matter which thread found them.
+std::vector<Crossing> find_crossings(const TriangleMesh& mesh, const Components& components) {
+  const RayGrid grid(rays_from_components(mesh, components));
+  tbb::enumerable_thread_specific<std::vector<Crossing>> found;
+  for_ranges_in_parallel(mesh.triangle_count(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Crossing>& crossings = found.local();
+    for (std::size_t f = begin; f < end; ++f) {
+      const Vec3 &a = mesh.points[mesh.triangles[f][0]], &b = mesh.points[mesh.triangles[f][1]], &c = mesh.points[mesh.triangles[f][2]];
+      grid.for_rays_in_box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), [&](const Ray& ray) {
+        if (ray.component != components.of_triangle[f] && ray_crosses(ray.origin, a, b, c))
+          crossings.emplace_back(ray.component, components.of_triangle[f]);
+      });
+    }
+  });
+  std::vector<Crossing> all;
+  for (const std::vector<Crossing>& crossings : found) all.insert(all.end(), crossings.begin(), crossings.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 }  // namespace
 
 Nesting component_nesting(const TriangleMesh& mesh, const Components& components) {
-  const RayGrid grid(rays_from_components(mesh, components));
-  // Crossings of one ray with one component, as (ray's component, crossed component) pairs.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
-  for (FaceId f = 0; f < mesh.triangle_count(); ++f) {
-    const Vec3 &a = mesh.points[mesh.triangles[f][0]], &b = mesh.points[mesh.triangles[f][1]], &c = mesh.points[mesh.triangles[f][2]];
-    grid.for_rays_in_box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), [&](const Ray& ray) {
-      if (ray.component != components.of_triangle[f] && ray_crosses(ray.origin, a, b, c))
-        crossings.emplace_back(ray.component, components.of_triangle[f]);
-    });
-  }
-  std::sort(crossings.begin(), crossings.end());
+  const std::vector<Crossing> crossings = find_crossings(mesh, components);
   Nesting nesting{std::vector<std::uint32_t>(components.count, 0), std::vector<std::vector<std::uint32_t>>(components.count)};
   for (auto it = crossings.begin(); it != crossings.end();) {
     const auto end = std::upper_bound(it, crossings.end(), *it);

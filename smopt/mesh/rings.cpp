@@ -1,82 +1,143 @@
 #include "smopt/mesh/rings.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <tuple>
+#include <utility>
+
+#include "smopt/geometry/lanes.h"
+#include "smopt/mesh/parallel.h"
 
 namespace smopt {
 namespace {
 
-/// A triangle of a star: it leads from one ring vertex to the next.
-struct Spoke {
-  VertexId from, to;
-  FaceId face;
-};
+/// No vertex: there are fewer.
+constexpr VertexId kNoVertex = 0xFFFFFFFF;
 
-std::vector<Spoke>& spokes_of(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star) {
-  thread_local std::vector<Spoke> spokes;
-  spokes.clear();
+/// The ring vertices that triangle t of the star of v leads from and to. A triangle in which v is repeated stands in the star once for each
+/// time and gives the same each time, so that it is in no ring.
+std::pair<VertexId, VertexId> spoke_of(const Triangle& t, VertexId v) {
+  static constexpr std::array<unsigned char, 4> kNext = {1, 2, 0, 0}, kPrevious = {2, 0, 1, 0};
+  const unsigned corner = (t[1] == v ? 1U : 0U) | (t[2] == v ? 2U : 0U);  // looked up, not branched on: there is no pattern to predict
+  return {t[kNext[corner]], t[kPrevious[corner]]};
+}
+
+/// Puts the triangles of a star of at most `kCapacity` into the order of the ring, each beginning where the one before ends; false where
+/// they form no single cycle, or where two begin at the same vertex. Where a triangle leads is compared with the beginnings of all others
+/// at once, so that no branch depends on the order in which they come. `faces` may be the star itself.
+template <std::size_t kCapacity>
+bool order_small(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star, VertexId* ring, FaceId* faces) {
+  std::array<VertexId, kCapacity> from, to;
+  std::array<FaceId, kCapacity> unordered;
+  from.fill(kNoVertex);
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    unordered[i] = star[i];
+    std::tie(from[i], to[i]) = spoke_of(mesh.triangles[star[i]], v);
+  }
+  std::array<Masks, kCapacity / kLanes> beginnings;
+  std::memcpy(beginnings.data(), from.data(), sizeof beginnings);
+  const auto beginning_at = [&beginnings](VertexId w) {
+    const auto wanted = static_cast<std::int32_t>(w);
+    unsigned found = 0;
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < beginnings.size(); ++j)
+      found |= lanes_set(beginnings[j] == Masks{wanted, wanted, wanted, wanted}) << kLanes * j;
+    return found;
+  };
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    ring[i] = from[at];
+    faces[i] = unordered[at];
+    const unsigned next = beginning_at(to[at]);
+    const bool is_one = next != 0 && (next & (next - 1)) == 0, is_closed = next == 1, is_last = i + 1 == star.size();
+    if (!is_one || is_closed != is_last) return false;
+    at = static_cast<std::size_t>(std::countr_zero(next));
+  }
+  return true;
+}
+
+/// The same for a star of any size. Cost: O(d log d).
+bool order_large(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star, VertexId* ring, FaceId* faces) {
+  struct Spoke {
+    VertexId from, to;
+    FaceId face;
+  };
+  std::vector<Spoke> spokes;
+  spokes.reserve(star.size());
   for (const FaceId f : star) {
-    const Triangle& t = mesh.triangles[f];
-    const int corner = corner_of(t, v);
-    spokes.push_back({t[corner < 2 ? corner + 1 : 0], t[corner > 0 ? corner - 1 : 2], f});
+    const auto [from, to] = spoke_of(mesh.triangles[f], v);
+    spokes.push_back({from, to, f});
   }
-  return spokes;
+  const Spoke first = spokes.front();
+  std::ranges::sort(spokes, {}, &Spoke::from);
+  if (std::ranges::adjacent_find(spokes, {}, &Spoke::from) != spokes.end()) return false;
+  Spoke spoke = first;
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    ring[i] = spoke.from;
+    faces[i] = spoke.face;
+    const auto next = std::ranges::lower_bound(spokes, spoke.to, {}, &Spoke::from);
+    const bool is_closed = spoke.to == first.from, is_last = i + 1 == spokes.size();
+    if (next == spokes.end() || next->from != spoke.to || is_closed != is_last) return false;
+    spoke = *next;
+  }
+  return true;
 }
 
-/// Up to this many triangles a star is searched from end to end for the next one; larger stars are sorted first.
-constexpr std::size_t kLinearSearch = 32;
-
-/// Brings the spokes into the order of the ring, each beginning where the one before ends; false where they form no single cycle, or where
-/// two begin at the same vertex. Cost: O(d log d).
-bool sort_large_into_cycle(std::vector<Spoke>& spokes) {
-  std::vector<Spoke> sorted = spokes;
-  const auto is_before = [](const Spoke& a, const Spoke& b) { return a.from < b.from; };
-  std::sort(sorted.begin(), sorted.end(), is_before);
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i].from == sorted[i - 1].from) return false;
-  for (std::size_t i = 1; i < spokes.size(); ++i) {
-    const auto next = std::lower_bound(sorted.begin(), sorted.end(), Spoke{spokes[i - 1].to, 0, 0}, is_before);
-    if (next == sorted.end() || next->from != spokes[i - 1].to || next->from == spokes.front().from) return false;
-    spokes[i] = *next;
-  }
-  return spokes.back().to == spokes.front().from;
+/// Orders the star of v into `ring` and `faces`, both of its size; what these hold is undefined where there is no ring.
+bool order_star(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star, VertexId* ring, FaceId* faces) {
+  if (star.size() < 3) return false;
+  if (star.size() <= 8) return order_small<8>(mesh, v, star, ring, faces);
+  if (star.size() <= 16) return order_small<16>(mesh, v, star, ring, faces);
+  return order_large(mesh, v, star, ring, faces);
 }
 
-/// The same for stars of ordinary size, in place.
-bool sort_into_cycle(std::vector<Spoke>& spokes) {
-  if (spokes.size() > kLinearSearch) return sort_large_into_cycle(spokes);
-  for (std::size_t i = 0; i + 1 < spokes.size(); ++i) {
-    const auto rest = spokes.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-    const auto continues = [to = spokes[i].to](const Spoke& s) { return s.from == to; };
-    const auto next = std::find_if(rest, spokes.end(), continues);
-    if (next == spokes.end() || std::any_of(next + 1, spokes.end(), continues)) return false;
-    std::iter_swap(rest, next);
-  }
-  return spokes.back().to == spokes.front().from;
+/// Calls is_true(v) for all vertices, on all threads, until one is not; whether all are.
+template <class Predicate>
+bool is_true_for_all(std::size_t vertex_count, const Predicate& is_true) {
+  std::atomic<bool> are_all = true;
+  for_ranges_in_parallel(vertex_count, [&](std::size_t begin, std::size_t end) {
+    if (!are_all.load(std::memory_order_relaxed)) return;
+    for (std::size_t v = begin; v < end; ++v)
+      if (!is_true(static_cast<VertexId>(v))) return are_all.store(false, std::memory_order_relaxed);
+  });
+  return are_all;
 }
 
 }  // namespace
 
 bool append_ring(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star, std::vector<VertexId>& vertices,
                  std::vector<FaceId>& faces) {
-  if (star.size() < 3) return false;
-  std::vector<Spoke>& spokes = spokes_of(mesh, v, star);
-  if (!sort_into_cycle(spokes)) return false;
-  for (const Spoke& spoke : spokes) {
-    vertices.push_back(spoke.from);
-    faces.push_back(spoke.face);
+  const std::size_t vertices_before = vertices.size(), faces_before = faces.size();
+  vertices.resize(vertices_before + star.size());
+  faces.resize(faces_before + star.size());
+  const bool is_ring = order_star(mesh, v, star, vertices.data() + vertices_before, faces.data() + faces_before);
+  if (!is_ring) {
+    vertices.resize(vertices_before);
+    faces.resize(faces_before);
   }
-  return true;
+  return is_ring;
+}
+
+bool has_all_rings(const TriangleMesh& mesh, const VertexStars& stars) {
+  return is_true_for_all(mesh.vertex_count(), [&](VertexId v) {
+    thread_local std::vector<std::uint32_t> ring, faces;
+    ring.resize(std::max(ring.size(), stars[v].size()));
+    faces.resize(ring.size());
+    return stars[v].empty() || order_star(mesh, v, stars[v], ring.data(), faces.data());
+  });
 }
 
 std::optional<VertexRings> build_rings(const TriangleMesh& mesh) {
-  const VertexStars stars = build_stars(mesh);
-  VertexRings rings;
-  rings.ring_vertices.reserve(stars.faces.size());
-  rings.ring_faces.reserve(stars.faces.size());
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
-    if (!stars[v].empty() && !append_ring(mesh, v, stars[v], rings.ring_vertices, rings.ring_faces)) return std::nullopt;
-  rings.offsets = stars.offsets;
-  return rings;
+  VertexStars stars = build_stars(mesh);
+  VertexRings rings{std::move(stars.offsets), std::vector<VertexId>(stars.faces.size()), std::move(stars.faces)};
+  const bool is_manifold = is_true_for_all(mesh.vertex_count(), [&](VertexId v) {
+    const std::uint32_t row = rings.offsets[v];
+    return rings.valence(v) == 0 || order_star(mesh, v, rings.faces(v), rings.ring_vertices.data() + row, rings.ring_faces.data() + row);
+  });
+  return is_manifold ? std::optional(std::move(rings)) : std::nullopt;
 }
 
 }  // namespace smopt

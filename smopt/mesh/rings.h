@@ -27,8 +27,11 @@ struct VertexRings {
 bool append_ring(const TriangleMesh& mesh, VertexId v, std::span<const FaceId> star, std::vector<VertexId>& vertices,
                  std::vector<FaceId>& faces);
 
+/// Whether every vertex that has triangles has a ring. \pre stars are the mesh's. Cost: O(n), on all threads.
+bool has_all_rings(const TriangleMesh& mesh, const VertexStars& stars);
+
 /// The rings of the whole mesh, or nothing when some vertex that has triangles has no ring: the mesh is then not a closed, oriented
-/// manifold. Vertices without triangles get an empty ring. Cost: O(n).
+/// manifold. Vertices without triangles get an empty ring. Cost: O(n), on all threads.
 std::optional<VertexRings> build_rings(const TriangleMesh& mesh);
 
 }  // namespace smopt

@@ -90,17 +90,6 @@ void find_faults(const TriangleMesh& mesh, const VertexStars& stars, ValidityRep
   find_nonmanifold_vertices(mesh, stars, report);
 }
 
-bool has_all_rings(const TriangleMesh& mesh, const VertexStars& stars) {
-  std::vector<VertexId> ring;
-  std::vector<FaceId> faces;
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    ring.clear();
-    faces.clear();
-    if (!stars[v].empty() && !append_ring(mesh, v, stars[v], ring, faces)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 bool ValidityReport::is_closed_manifold() const {

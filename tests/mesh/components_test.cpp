@@ -43,6 +43,10 @@ void expect_by_definition(const TriangleMesh& mesh) {
   EXPECT_EQ(found.count, firsts.size());
   for (std::size_t f = 0; f < lowest.size(); ++f)
     ASSERT_EQ(found.of_triangle[f], std::ranges::lower_bound(firsts, lowest[f]) - firsts.begin()) << "triangle " << f;
+  std::vector<std::uint32_t> of_vertex(mesh.vertex_count(), Components::kNone);
+  for (std::size_t f = 0; f < lowest.size(); ++f)
+    for (const VertexId v : mesh.triangles[f]) of_vertex[v] = found.of_triangle[f];
+  EXPECT_EQ(found.of_vertex, of_vertex);
 }
 
 TEST(Components, AreNumberedByTheirFirstTriangle) {

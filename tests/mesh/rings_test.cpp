@@ -160,6 +160,7 @@ TEST(Rings, AppendLeavesEverythingAsItWasWhereThereIsNoRing) {
       {{0, 1, 2}, {0, 3, 2}, {0, 3, 1}},                                   // orientations that disagree
       {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}, {0, 2, 3}, {0, 3, 1}},  // every triangle twice
       {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 2}},                        // a loop with a tail
+      {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 4}, {0, 4, 5}, {0, 5, 1}},  // twice through the vertex where it begins
   };
   for (std::size_t i = 0; i < stars.size(); ++i) {
     const Attempt attempt = ring_of(stars[i]);
@@ -167,6 +168,16 @@ TEST(Rings, AppendLeavesEverythingAsItWasWhereThereIsNoRing) {
     EXPECT_THAT(attempt.vertices, ElementsAre(77U)) << "star " << i;
     EXPECT_THAT(attempt.faces, ElementsAre(88U)) << "star " << i;
   }
+}
+
+TEST(Rings, AreFoundForEveryValenceInAnyOrder) {
+  for (int valence = 3; valence <= 40; ++valence)
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+      const TriangleMesh mesh = relabelled(bipyramid(valence), seed);
+      const std::optional<VertexRings> rings = build_rings(mesh);
+      ASSERT_TRUE(rings.has_value()) << "valence " << valence << ", seed " << seed;
+      expect_rings_go_round(mesh, *rings);
+    }
 }
 
 TEST(Rings, AVertexOfTenThousandTrianglesIsNoMatter) {

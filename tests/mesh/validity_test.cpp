@@ -125,6 +125,14 @@ TEST(Validity, TwoClosedSurfacesAlongOneEdgeAreANonManifoldEdge) {
   expect_rejected(report);
 }
 
+TEST(Validity, AFourfoldEdgeIsFoundWhateverTheOrder) {
+  TriangleMesh mesh = joined(tetrahedron(), tetrahedron());
+  for (Triangle& t : mesh.triangles)
+    for (VertexId& v : t) v = v == 4 ? 0 : (v == 5 ? 1 : v);
+  for (std::uint32_t seed = 0; seed < 200; ++seed)
+    EXPECT_EQ(check_validity(relabelled(mesh, seed)).nonmanifold_edges.count, 1U) << "seed " << seed;
+}
+
 TEST(Validity, ABowTieIsANonManifoldVertex) {
   TriangleMesh mesh = joined(icosphere(1), translated(icosphere(1), {3, 0, 0}));
   for (Triangle& t : mesh.triangles) std::replace(t.begin(), t.end(), 42U, 17U);  // the second sphere's first vertex
