@@ -1,6 +1,7 @@
 #include "smopt/improve/redundant_points.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -275,6 +276,30 @@ TEST_P(ManyPoints, NeverCreateAnIntersectingPairHoweverLargeTheTolerance) {
         EXPECT_GT(report.valence3 + report.valence4, 0U);
       }
     }
+  }
+}
+
+/// The report and the mesh of `remove_redundant_points` for a number of threads.
+Outcome with_threads(std::size_t threads, const TriangleMesh& mesh, const RedundantPointOptions& options) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  return without_redundant_points(mesh, options);
+}
+
+TEST(RedundantPoints, AreTheSameForAnyNumberOfThreads) {
+  const TriangleMesh base = noisy(torus(10, 3, 120, 60), 0.02, 4);
+  const TriangleMesh mesh = noisy(relabelled(with_points_on_edges(with_points_in_faces(base, 4), 4), 4), 0.002, 4);
+  const RedundantPointOptions options{0.004, false};
+  const Outcome one = with_threads(1, mesh, options);
+  EXPECT_GT(one.report.valence3, 100U);
+  EXPECT_GT(one.report.valence4, 100U);
+  for (const std::size_t threads : {2, 3, 8}) {
+    const Outcome other = with_threads(threads, mesh, options);
+    EXPECT_TRUE(is_same(other.mesh, one.mesh)) << threads << " threads";
+    EXPECT_EQ(other.report.valence3, one.report.valence3);
+    EXPECT_EQ(other.report.valence4, one.report.valence4);
+    EXPECT_EQ(other.report.refused_link, one.report.refused_link);
+    EXPECT_EQ(other.report.refused_meet, one.report.refused_meet);
+    EXPECT_EQ(other.report.passes, one.report.passes);
   }
 }
 
