@@ -1,12 +1,12 @@
 #include "experiments/improve_run.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <oneapi/tbb/global_control.h>
 
 #include <array>
 #include <charconv>
+#include <fstream>
 
 #include "baselines/baselines.h"
 #include "metrics/intersections.h"
@@ -119,9 +119,11 @@ Json options_json(const Method& method, const OptionValues& values) {
 }
 
 double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
+  // Not getrusage: its ru_maxrss survives exec, so that it counts the memory of whoever started the program.
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
+  return 0;
 }
 
 ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& progress) {

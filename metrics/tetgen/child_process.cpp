@@ -9,9 +9,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <fstream>
 #include <thread>
 
 namespace smopt::metrics {
@@ -51,6 +53,14 @@ void set_limit(int resource, rlim_t value) {
   setrlimit(static_cast<__rlimit_resource>(resource), &limit);
 }
 
+/// VmHWM of a process, MB; 0 when it has ended.
+double peak_memory_mb_of(pid_t pid) {
+  std::ifstream status(fmt::format("/proc/{}/status", pid));
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
+  return 0;
+}
+
 /// In the child, between fork and exec: calls that are safe there only.
 [[noreturn]] void become(char* const* argv, const ProcessLimits& limits, int output, pid_t parent) {
   setpgid(0, 0);
@@ -73,40 +83,53 @@ class Child {
     std::vector<char*> argv;
     for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
-    std::array<int, 2> ends{};
+    std::array<int, 2> ends{}, until_started{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
     output_.reset(ends[0]);
     const Descriptor input(ends[1]);
+    if (pipe2(until_started.data(), O_CLOEXEC) != 0)
+      throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
+    const Descriptor started(until_started[0]);
+    Descriptor not_started(until_started[1]);
     const pid_t parent = getpid();
     pid_ = fork();
     if (pid_ < 0) throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
     if (pid_ == 0) become(argv.data(), limits, input.get(), parent);
     setpgid(pid_, pid_);  // in both, so that it is done before either goes on
+    // The child's end closes as it becomes the program: before that, its memory is a copy of this process's.
+    not_started.reset();
+    char nothing = 0;
+    while (read(started.get(), &nothing, 1) < 0 && errno == EINTR) {
+    }
   }
   ~Child() {
     if (ended_) return;
     kill_all();
-    wait4(pid_, &status_, 0, &usage_);
+    waitpid(pid_, &status_, 0);
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
   /// Waits a moment for output or the end; true when it has ended.
   bool step() {
+    look_at_memory();
     collect_output(kPollMs);
-    if (wait4(pid_, &status_, WNOHANG, &usage_) == pid_) end();
+    look_at_memory();
+    if (waitpid(pid_, &status_, WNOHANG) == pid_) end();
     return ended_;
   }
   void stop() {
     kill_all();
-    if (wait4(pid_, &status_, 0, &usage_) == pid_) end();
+    if (waitpid(pid_, &status_, 0) == pid_) end();
   }
 
   [[nodiscard]] int status() const { return status_; }
-  [[nodiscard]] double peak_memory_mb() const { return static_cast<double>(usage_.ru_maxrss) / 1024; }
+  [[nodiscard]] double peak_memory_mb() const { return peak_memory_mb_; }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
+  void look_at_memory() { peak_memory_mb_ = std::max(peak_memory_mb_, peak_memory_mb_of(pid_)); }
+
   void kill_all() const { kill(-pid_, SIGKILL); }
 
   void end() {
@@ -142,7 +165,7 @@ class Child {
   pid_t pid_ = -1;
   bool ended_ = false;
   int status_ = 0;
-  rusage usage_{};
+  double peak_memory_mb_ = 0;
   Descriptor output_;
   std::string text_;
 };

@@ -20,7 +20,7 @@ struct ProcessOutcome {
   std::optional<int> signal;       ///< that ended it
   bool out_of_time = false;
   double seconds = 0;         ///< wall time
-  double peak_memory_mb = 0;  ///< resident, as wait4 has it: at least its parent's at the start
+  double peak_memory_mb = 0;  ///< resident, of the program alone, as seen the last time it was looked at (each 50 ms)
   std::string output;         ///< the last part of standard output and standard error, mixed
 };
 
