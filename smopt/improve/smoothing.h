@@ -44,16 +44,14 @@ struct MoveCounts {
 struct RoundReport {
   std::size_t active = 0;  ///< vertices visited
   MoveCounts moves;
-  std::size_t stuck = 0;    ///< of the active, passed over: refused before, and nothing around them has moved since
+  std::size_t stuck = 0;    ///< of the active, passed over: refused before, and no vertex of their ring has moved since
   double longest_move = 0;  ///< Å
 };
 
 struct SmoothingReport {
   std::vector<RoundReport> rounds;
-  MoveCounts moves;          ///< over all rounds
-  double volume_before = 0;  ///< enclosed, Å³
-  double volume_after = 0;
-  std::size_t stuck = 0;        ///< vertices whose last move was refused and around which nothing has moved since
+  MoveCounts moves;             ///< over all rounds
+  std::size_t stuck = 0;        ///< vertices whose last move was refused and whose ring has not moved since
   std::size_t low_quality = 0;  ///< triangles below the thresholds when it stopped (of those screened last)
   std::string stopped_because;  ///< "quality reached", "nothing moved" or "rounds"
 };
@@ -63,8 +61,9 @@ struct SmoothingReport {
 /// Modified Laplacian smoothing (Liu et al. 2017, section 0.3, algorithm 3): one sweep over all vertices, then sweeps over the corners of
 /// low-quality triangles and their neighbours, which are chosen anew every few sweeps. The step starts whole and is halved while
 /// the guard refuses the move, or while it would make a bad angle worse (`keeps_angles`). Vertices are visited in the order of `SweepSchedule`. A
-/// vertex that is refused leaves the active set until something around it moves. It ends when no low-quality triangle is left, when all rounds
+/// vertex that is refused leaves the active set until a vertex of its ring moves. It ends when no low-quality triangle is left, when all rounds
 /// are used, or with a round in which a newly chosen active set did not move at all.
+/// A step below 1e-7 of the longest edge at the vertex is not made: a fixed point would be approached for ever.
 /// Connectivity does not change; with the exact guard, no pair of triangles intersects afterwards that did not before.
 ///
 /// \param mesh  positions in Å, changed in place.
