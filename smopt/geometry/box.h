@@ -9,27 +9,20 @@
 
 namespace smopt {
 
-/// An axis-aligned box in single precision whose bounds are rounded outwards, so that it contains what it was made from.
+/// An axis-aligned box in single precision whose bounds are rounded outwards, so that it contains what it was made from. The fourth lane of both
+/// bounds is about 0 and says nothing.
 struct Box {
-  float low[3] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
-  float high[3] = {-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
-                   -std::numeric_limits<float>::infinity()};
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-  [[nodiscard]] bool overlaps(const Box& other) const {
-    // Bitwise and: six comparisons without a branch.
-    return static_cast<bool>((low[0] <= other.high[0]) & (low[1] <= other.high[1]) & (low[2] <= other.high[2]) & (other.low[0] <= high[0]) &
-                             (other.low[1] <= high[1]) & (other.low[2] <= high[2]));
-  }
-  [[nodiscard]] bool contains(const Box& other) const {
-    return static_cast<bool>((low[0] <= other.low[0]) & (low[1] <= other.low[1]) & (low[2] <= other.low[2]) & (other.high[0] <= high[0]) &
-                             (other.high[1] <= high[1]) & (other.high[2] <= high[2]));
-  }
+  Floats low = {kInfinity, kInfinity, kInfinity, 0};
+  Floats high = {-kInfinity, -kInfinity, -kInfinity, 0};
+
+  [[nodiscard]] bool overlaps(const Box& other) const { return is_set_in_all((low <= other.high) & (other.low <= high)); }
+  [[nodiscard]] bool contains(const Box& other) const { return is_set_in_all((low <= other.low) & (other.high <= high)); }
   /// Grows to contain another box too.
   void unite(const Box& other) {
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], other.low[i]);
-      high[i] = std::max(high[i], other.high[i]);
-    }
+    low = smaller_of(low, other.low);
+    high = larger_of(high, other.high);
   }
 };
 
@@ -47,15 +40,24 @@ inline float rounded_up(double x) {
   return rounded_up(in_all_lanes(static_cast<float>(x)))[0];
 }
 
+/// The outward-rounded box of a point.
+inline Box point_box(const Vec3& p) {
+  const Floats converted{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), 0};
+  return {rounded_down(converted), rounded_up(converted)};
+}
+
 /// The outward-rounded box of the double-precision bounds.
 inline Box make_box(const Vec3& low, const Vec3& high) {
-  const Floats down = rounded_down(Floats{static_cast<float>(low[0]), static_cast<float>(low[1]), static_cast<float>(low[2]), 0.0F});
-  const Floats up = rounded_up(Floats{static_cast<float>(high[0]), static_cast<float>(high[1]), static_cast<float>(high[2]), 0.0F});
-  return {{down[0], down[1], down[2]}, {up[0], up[1], up[2]}};
+  return {point_box(low).low, point_box(high).high};
+}
+
+inline Box united(Box a, const Box& b) {
+  a.unite(b);
+  return a;
 }
 
 inline Box triangle_box(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return make_box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+  return united(united(point_box(a), point_box(b)), point_box(c));
 }
 
 }  // namespace smopt

@@ -10,10 +10,6 @@ using Floats = float __attribute__((vector_size(16)));
 using Masks = std::int32_t __attribute__((vector_size(16)));
 inline constexpr std::size_t kLanes = 4;
 
-/// Three numbers and a zero.
-inline Floats in_lanes(const float* p) {
-  return Floats{p[0], p[1], p[2], 0.0F};
-}
 inline Floats in_all_lanes(float x) {
   return Floats{x, x, x, x};
 }

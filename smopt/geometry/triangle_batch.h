@@ -58,8 +58,8 @@ class TriangleBatch {
 
   void set_space(const Box& space);
   /// A monotone function of the coordinates, so that boxes that overlap do so in steps too.
-  [[nodiscard]] Masks steps_of(const float* point) const {
-    const Floats steps = (in_lanes(point) - in_lanes(space_.low)) * steps_per_unit_ - 32000.0F;
+  [[nodiscard]] Masks steps_of(Floats point) const {
+    const Floats steps = (point - space_.low) * steps_per_unit_ - 32000.0F;
     return __builtin_convertvector(smaller_of(larger_of(steps, in_all_lanes(-32000.0F)), in_all_lanes(32000.0F)), Masks);
   }
   void put_box(std::size_t i, const Box& box);

@@ -50,6 +50,7 @@ class TriangleGrid {
   [[nodiscard]] Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) const {
     return triangle_box(a - origin_, b - origin_, c - origin_);
   }
+  [[nodiscard]] Box box_of(const Vec3& p) const { return point_box(p - origin_); }
   [[nodiscard]] Box box_of(const Vec3& low, const Vec3& high) const { return make_box(low - origin_, high - origin_); }
 
   /// The cubes that a box covers.
@@ -188,7 +189,7 @@ class TriangleGrid {
         bounds[3 + i] = -box.high[i];
       }
     }
-    [[nodiscard]] Box box() const { return {{bounds[0], bounds[1], bounds[2]}, {-bounds[3], -bounds[4], -bounds[5]}}; }
+    [[nodiscard]] Box box() const { return {Floats{bounds[0], bounds[1], bounds[2], 0}, Floats{-bounds[3], -bounds[4], -bounds[5], 0}}; }
   };
   struct Query {
     explicit Query(const Box& box)
@@ -208,7 +209,7 @@ class TriangleGrid {
     const Floats clamped = smaller_of(larger_of(x * halves_per_unit_, in_all_lanes(-64000.0F)), in_all_lanes(64000.0F));
     return __builtin_convertvector(clamped + 65536.0F, Masks) - 65536;
   }
-  [[nodiscard]] Halves halves_of(const Box& box) const { return {half_indices(in_lanes(box.low)), half_indices(in_lanes(box.high))}; }
+  [[nodiscard]] Halves halves_of(const Box& box) const { return {half_indices(box.low), half_indices(box.high)}; }
 
   // A box is in the loosened bounds of cube c of size 2^s when 2c − 1 ≤ low >> s and high >> s ≤ 2c + 2 (in halves, for each coordinate); so
   // the homes of what may overlap a box are the cubes from ((low >> s) − 1) >> 1 to ((high >> s) + 1) >> 1.

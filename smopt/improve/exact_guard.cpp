@@ -26,12 +26,12 @@ void ExactGuard::enter(std::span<const VertexId> group, const TriangleGrid::Cube
 void ExactGuard::select(const StarMove& move, const Vec3& reach) {
   move_ = &move;
   // The box is made from the coordinates themselves: sums of differences may be off by a unit in the last place.
-  Vec3 low = reach.cwiseMin(move.position()), high = reach.cwiseMax(move.position());
+  reach_box_ = united(surface_.grid.box_of(move.position()), surface_.grid.box_of(reach));
+  ring_boxes_.clear();
   for (const Vec3& p : move.ring_points()) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+    ring_boxes_.push_back(surface_.grid.box_of(p));
+    reach_box_.unite(ring_boxes_.back());
   }
-  reach_box_ = surface_.grid.box_of(low, high);
   ring_order_.clear();
 }
 
@@ -60,12 +60,9 @@ void ExactGuard::fetch_surroundings() {
 }
 
 Box ExactGuard::star_box(VertexId v) const {
-  Vec3 low = surface_.mesh.points[v], high = low;
-  for (const VertexId w : surface_.rings.vertices(v)) {
-    low = low.cwiseMin(surface_.mesh.points[w]);
-    high = high.cwiseMax(surface_.mesh.points[w]);
-  }
-  return surface_.grid.box_of(low, high);
+  Box box = surface_.grid.box_of(surface_.mesh.points[v]);
+  for (const VertexId w : surface_.rings.vertices(v)) box.unite(surface_.grid.box_of(surface_.mesh.points[w]));
+  return box;
 }
 
 void ExactGuard::judge_star() {
@@ -186,12 +183,12 @@ bool ExactGuard::is_clear_by_outline(const TriangleBatch::Entry& triangle, unsig
 }
 
 void ExactGuard::compute_boxes() {
-  const std::vector<Vec3>& ring = move_->ring_points();
   const std::span<const FaceId> faces = move_->faces();
-  at_target_.boxes.resize(ring.size());
-  at_target_.leaves_home.resize(ring.size());
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    at_target_.boxes[k] = surface_.grid.box_of(move_->target(), ring[k], ring[move_->next(k)]);
+  const Box target = surface_.grid.box_of(move_->target());
+  at_target_.boxes.resize(faces.size());
+  at_target_.leaves_home.resize(faces.size());
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    at_target_.boxes[k] = united(united(ring_boxes_[k], ring_boxes_[move_->next(k)]), target);
     at_target_.leaves_home[k] = surface_.grid.stays_at_home(faces[k], at_target_.boxes[k]) ? 0 : 1;
   }
 }

@@ -109,6 +109,7 @@ class ExactGuard final : public MoveGuard {
   // The selected vertex.
   const StarMove* move_ = nullptr;
   Box reach_box_;                                     // of the star and the farthest target, in the grid's frame
+  std::vector<Box> ring_boxes_;                       // of the ring's points
   std::vector<std::pair<VertexId, int>> ring_order_;  // ring vertices and their places, sorted; only for long rings
 
   // The target asked for last.
