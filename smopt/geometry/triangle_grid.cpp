@@ -1,11 +1,10 @@
 #include "smopt/geometry/triangle_grid.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {
@@ -16,8 +15,6 @@ constexpr float kCubePerExtent = 1.5F;
 constexpr float kMaxCubeIndex = 31000.0F;
 /// The hash table starts with room for this many blocks.
 constexpr std::size_t kInitialTable = 1024;
-/// Triangles a task when something is done for each of them.
-constexpr std::uint32_t kGrain = 8192;
 /// Eight-fold sizes: 2^15 smallest cubes span the space, 2^(3·6) are more.
 constexpr std::size_t kTiers = 6;
 
@@ -27,8 +24,8 @@ float largest_extent(const Box& box) {
 
 template <class Visit>
 void for_all_in_parallel(std::uint32_t count, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, kGrain), [&](const tbb::blocked_range<std::uint32_t>& range) {
-    for (std::uint32_t i = range.begin(); i < range.end(); ++i) visit(i);
+  for_ranges_in_parallel(count, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) visit(i);
   });
 }
 

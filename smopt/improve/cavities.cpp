@@ -5,7 +5,7 @@
 #include "smopt/mesh/compact.h"
 #include "smopt/mesh/nesting.h"
 #include "smopt/mesh/orientation.h"
-#include "smopt/mesh/parallel.h"
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {

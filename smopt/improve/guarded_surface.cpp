@@ -1,8 +1,8 @@
 #include "smopt/improve/guarded_surface.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {
@@ -12,8 +12,8 @@ using Directions = std::vector<Eigen::Vector3f>;
 /// Of the triangles' normals, as `reliable_direction`.
 Directions normal_directions(const TriangleMesh& mesh) {
   Directions directions(mesh.triangle_count());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, directions.size(), 4096), [&](const auto& range) {
-    for (std::size_t f = range.begin(); f < range.end(); ++f) {
+  for_ranges_in_parallel(directions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
       const Triangle& t = mesh.triangles[f];
       const Vec3 p = mesh.points[t[1]] - mesh.points[t[0]], q = mesh.points[t[2]] - mesh.points[t[0]];
       directions[f] = reliable_direction(p.cross(q), std::max({p.squaredNorm(), q.squaredNorm(), (q - p).squaredNorm()}));
@@ -25,10 +25,10 @@ Directions normal_directions(const TriangleMesh& mesh) {
 std::vector<NormalCone> normal_cones(const TriangleMesh& mesh, const VertexRings& rings) {
   const Directions directions = normal_directions(mesh);
   std::vector<NormalCone> cones(mesh.vertex_count());
-  tbb::parallel_for(tbb::blocked_range<VertexId>(0, static_cast<VertexId>(cones.size()), 4096), [&](const auto& range) {
+  for_ranges_in_parallel(cones.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<Vec3> ring;
     Directions of_star;
-    for (VertexId v = range.begin(); v < range.end(); ++v) {
+    for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
       ring.clear();
       of_star.clear();
       for (const VertexId w : rings.vertices(v)) ring.push_back(mesh.points[w]);

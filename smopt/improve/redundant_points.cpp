@@ -10,7 +10,7 @@
 #include "smopt/improve/star_replacement.h"
 #include "smopt/improve/visit_order.h"
 #include "smopt/mesh/compact.h"
-#include "smopt/mesh/parallel.h"
+#include "smopt/parallel.h"
 #include "smopt/mesh/rings.h"
 
 namespace smopt {

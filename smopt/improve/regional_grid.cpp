@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "smopt/mesh/parallel.h"
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {

@@ -1,18 +1,11 @@
 #include "smopt/improve/screening.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <numeric>
 
+#include "smopt/parallel.h"
+
 namespace smopt {
-namespace {
-
-/// Triangles a task.
-constexpr std::size_t kGrain = 8192;
-
-}  // namespace
 
 ActiveSet Screening::of_all() {
   std::vector<FaceId> faces(mesh_.triangle_count());
@@ -30,8 +23,8 @@ ActiveSet Screening::of_stars(const std::vector<VertexId>& vertices) {
 
 ActiveSet Screening::of_faces(const std::vector<FaceId>& faces) {
   std::vector<char> is_low(faces.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kGrain), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+  for_ranges_in_parallel(faces.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       const Triangle& t = mesh_.triangles[faces[i]];
       is_low[i] = test_.is_low(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]) ? 1 : 0;
     }

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <numeric>
 
-#include "smopt/mesh/parallel.h"
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {

@@ -8,7 +8,7 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include "smopt/geometry/predicates.h"
-#include "smopt/mesh/parallel.h"
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {

@@ -10,7 +10,7 @@
 #include "smopt/error.h"
 #include "smopt/geometry/triangle_shape.h"
 #include "smopt/mesh/edge_sides.h"
-#include "smopt/mesh/parallel.h"
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "smopt/geometry/lanes.h"
-#include "smopt/mesh/parallel.h"
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {

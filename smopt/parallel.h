@@ -5,6 +5,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+/// Used inside the library; not installed, as it needs TBB.
 namespace smopt {
 
 /// Elements a task when little is done for each: some ten microseconds, long beside what starting a task costs.
