@@ -9,6 +9,8 @@ namespace {
 
 /// Steps from end to end of the space; they are kept as 16-bit numbers around 0.
 constexpr float kSteps = 64000.0F;
+/// How many triangles ahead their points are asked for from memory.
+constexpr std::size_t kLookahead = 8;
 /// An empty box: its lower end is above every query.
 constexpr std::int16_t kBeyondLow = 32767, kBeyondHigh = -32768;
 
@@ -46,18 +48,28 @@ void TriangleBatch::gather(const TriangleGrid& grid, const std::vector<Vec3>& po
   radius_ = 0;
   entries_.clear();
   boxes_.clear();
+  faces_.clear();
   grid.for_overlapping(space, [&](std::uint32_t f) {
-    const std::array<std::uint32_t, 3>& t = triangles[f];
-    const Eigen::Vector3f a = (points[t[0]] - center).cast<float>(), b = (points[t[1]] - center).cast<float>(),
-                          c = (points[t[2]] - center).cast<float>();
-    radius_ = std::max({radius_, largest_of(a), largest_of(b), largest_of(c)});
-    if (entries_.size() % kBoxesPerGroup == 0) {
-      constexpr Steps kLow = Steps{} + kBeyondLow, kHigh = Steps{} + kBeyondHigh;
-      boxes_.push_back({{kLow, kLow, kLow}, {kHigh, kHigh, kHigh}});
-    }
-    put_box(entries_.size(), grid.box(f));
-    entries_.push_back(Entry{{a[0], b[0], c[0], c[0]}, {a[1], b[1], c[1], c[1]}, {a[2], b[2], c[2], c[2]}, f, t});
+    faces_.push_back(f);
+    __builtin_prefetch(&triangles[f]);
   });
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (i + kLookahead < faces_.size())
+      for (const std::uint32_t corner : triangles[faces_[i + kLookahead]]) __builtin_prefetch(&points[corner]);
+    add(faces_[i], grid.box(faces_[i]), points, triangles[faces_[i]]);
+  }
+}
+
+void TriangleBatch::add(std::uint32_t f, const Box& box, const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>& t) {
+  const Eigen::Vector3f a = (points[t[0]] - center_).cast<float>(), b = (points[t[1]] - center_).cast<float>(),
+                        c = (points[t[2]] - center_).cast<float>();
+  radius_ = std::max({radius_, largest_of(a), largest_of(b), largest_of(c)});
+  if (entries_.size() % kBoxesPerGroup == 0) {
+    constexpr Steps kLow = Steps{} + kBeyondLow, kHigh = Steps{} + kBeyondHigh;
+    boxes_.push_back({{kLow, kLow, kLow}, {kHigh, kHigh, kHigh}});
+  }
+  put_box(entries_.size(), box);
+  entries_.push_back(Entry{{a[0], b[0], c[0], c[0]}, {a[1], b[1], c[1], c[1]}, {a[2], b[2], c[2], c[2]}, f, t});
 }
 
 void TriangleBatch::set_space(const Box& space) {

@@ -57,6 +57,7 @@ class TriangleBatch {
   };
 
   void set_space(const Box& space);
+  void add(std::uint32_t f, const Box& box, const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>& t);
   /// A monotone function of the coordinates, so that boxes that overlap do so in steps too.
   [[nodiscard]] Masks steps_of(Floats point) const {
     const Floats steps = (point - space_.low) * steps_per_unit_ - 32000.0F;
@@ -68,6 +69,7 @@ class TriangleBatch {
   Floats steps_per_unit_{};
   Vec3 center_ = Vec3::Zero();
   float radius_ = 0;
+  std::vector<std::uint32_t> faces_;  // to be copied
   std::vector<Entry> entries_;
   std::vector<BoxGroup> boxes_;      // of entry i: lane i % 8 of group i / 8; behind the last, boxes that nothing overlaps
   std::vector<std::uint32_t> near_;  // what was found last

@@ -54,6 +54,11 @@ bool ExactGuard::is_ok() {
 
 void ExactGuard::fetch_surroundings() {
   Box space = reach_box_;
+  for (const VertexId v : group_) {  // asks for memory that will be needed
+    __builtin_prefetch(surface_.rings.vertices(v).data());
+    __builtin_prefetch(surface_.rings.faces(v).data());
+    __builtin_prefetch(&surface_.cones[v]);
+  }
   for (const VertexId v : group_) space.unite(star_box(v));
   if (region_ != nullptr && !region_->contains(surface_.grid.reading(space))) space = reach_box_;
   surroundings_.gather(surface_.grid, surface_.mesh.points, surface_.mesh.triangles, space, move_->position());

@@ -10,8 +10,8 @@
 #include "smopt/improve/star_replacement.h"
 #include "smopt/improve/visit_order.h"
 #include "smopt/mesh/compact.h"
-#include "smopt/parallel.h"
 #include "smopt/mesh/rings.h"
+#include "smopt/parallel.h"
 
 namespace smopt {
 namespace {

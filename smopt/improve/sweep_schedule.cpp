@@ -7,24 +7,33 @@
 namespace smopt {
 namespace {
 
-constexpr int kTileShift = 3;  // a tile is 8 cubes, two grid blocks, along its edge
-constexpr int kTileEdge = 1 << kTileShift;
-constexpr int kHalo = TriangleGrid::kBlockEdge;  // half a tile
-static_assert(2 * kHalo == kTileEdge && kTileEdge % TriangleGrid::kBlockEdge == 0);
+constexpr int kBlockShift = 2;  // a block is 4 cubes along its edge
+static_assert(1 << kBlockShift == TriangleGrid::kBlockEdge);
+/// Tiles of 2 × 2 × 2 blocks are many, for many threads; those of 4 × 4 × 4 find more of their surroundings in the cache, which pays where the
+/// mesh is larger than the cache (6 % at a million vertices).
+constexpr int kSmallTileShift = kBlockShift + 1, kLargeTileShift = kBlockShift + 2;
+constexpr std::size_t kLargeMesh = 400'000;  // vertices
 
 /// The tile's colour in the upper bits, then the tile's place, then the block's place in it: sorts blocks into the order of the schedule.
 using BlockKey = std::uint64_t;
 constexpr int kPlaceBits = 14;
 constexpr int kPlaceOffset = 1 << (kPlaceBits - 1);
-constexpr int kBlockBits = 3;
+constexpr int kBlockBits = 3 * (kLargeTileShift - kBlockShift);
 
-BlockKey key_of(const TriangleGrid::CubeRange& cube) {
-  const int x = cube.low[0] >> kTileShift, y = cube.low[1] >> kTileShift, z = cube.low[2] >> kTileShift;
+/// The block's place in its tile, halves of halves first (Morton's curve): the next block is mostly a neighbour.
+BlockKey place_in_tile(const TriangleGrid::CubeRange& cube, int tile_shift) {
+  BlockKey place = 0;
+  for (int bit = tile_shift - 1; bit >= kBlockShift; --bit)
+    for (const std::int16_t index : cube.low) place = place << 1 | static_cast<BlockKey>(index >> bit & 1);
+  return place;
+}
+
+BlockKey key_of(const TriangleGrid::CubeRange& cube, int tile_shift) {
+  const int x = cube.low[0] >> tile_shift, y = cube.low[1] >> tile_shift, z = cube.low[2] >> tile_shift;
   const auto color = static_cast<BlockKey>((x & 1) | (y & 1) << 1 | (z & 1) << 2);
   const auto place = [](int i) { return static_cast<BlockKey>(i + kPlaceOffset); };
-  const auto half = [&cube](int axis) { return static_cast<BlockKey>(cube.low[axis] >> (kTileShift - 1) & 1); };
   return color << (3 * kPlaceBits + kBlockBits) | place(x) << (2 * kPlaceBits + kBlockBits) | place(y) << (kPlaceBits + kBlockBits) |
-         place(z) << kBlockBits | half(0) << 2 | half(1) << 1 | half(2);
+         place(z) << kBlockBits | place_in_tile(cube, tile_shift);
 }
 
 std::size_t color_of(BlockKey key) {
@@ -35,12 +44,14 @@ bool are_in_one_tile(BlockKey a, BlockKey b) {
   return a >> kBlockBits == b >> kBlockBits;
 }
 
-TriangleGrid::CubeRange region_of(BlockKey key) {
+/// The tile and half a tile around it.
+TriangleGrid::CubeRange region_of(BlockKey key, int tile_shift) {
+  const int edge = 1 << tile_shift, halo = edge / 2;
   TriangleGrid::CubeRange region{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto place = static_cast<int>((key >> ((2 - axis) * kPlaceBits + kBlockBits)) & ((1 << kPlaceBits) - 1)) - kPlaceOffset;
-    region.low[axis] = static_cast<std::int16_t>(std::max(place * kTileEdge - kHalo, -32768));
-    region.high[axis] = static_cast<std::int16_t>(std::min(place * kTileEdge + kTileEdge + kHalo - 1, 32767));
+    region.low[axis] = static_cast<std::int16_t>(std::max(place * edge - halo, -32768));
+    region.high[axis] = static_cast<std::int16_t>(std::min(place * edge + edge + halo - 1, 32767));
   }
   return region;
 }
@@ -70,11 +81,12 @@ class BlockNumbers {
 
 SweepSchedule::SweepSchedule(const TriangleGrid& grid, const TriangleMesh& mesh, const std::vector<VertexId>& vertices)
     : vertices_(vertices.size()) {
+  const int tile_shift = mesh.vertex_count() < kLargeMesh ? kSmallTileShift : kLargeTileShift;
   BlockNumbers number;
   std::vector<std::uint32_t> block_of(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec3& p = mesh.points[vertices[i]];
-    block_of[i] = number(key_of(grid.cubes_of(grid.box_of(p, p))));
+    block_of[i] = number(key_of(grid.cubes_of(grid.box_of(p)), tile_shift));
   }
   const std::vector<BlockKey>& keys = number.keys();
   std::vector<std::uint32_t> count(keys.size(), 0), order(keys.size()), next(keys.size());
@@ -85,7 +97,7 @@ SweepSchedule::SweepSchedule(const TriangleGrid& grid, const TriangleMesh& mesh,
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::uint32_t block = order[i];
     if (i == 0 || !are_in_one_tile(keys[order[i - 1]], keys[block])) {
-      tiles_.push_back({region_of(keys[block]), {}});
+      tiles_.push_back({region_of(keys[block], tile_shift), {}});
       ++color_begin_[color_of(keys[block]) + 1];
     }
     tiles_.back().groups.emplace_back(vertices_.data() + begin, count[block]);

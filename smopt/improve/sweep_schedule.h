@@ -11,10 +11,10 @@ namespace smopt {
 
 /// The order in which a sweep visits vertices, the same for any number of threads.
 ///
-/// Space is divided into tiles of 2×2×2 grid blocks, in eight colours like a chessboard of three dimensions. A tile's region is the tile
-/// and half a tile around it; regions of one colour do not overlap, so the tiles of a colour may be worked on at the same time, each by one
-/// thread, block after block, in ascending order of the block's vertices. A vertex whose move would reach out of its tile's region waits until
-/// the end of the sweep, when one thread does what is left, in the order of colours and tiles.
+/// Space is divided into tiles of 2×2×2 grid blocks (4×4×4 for large meshes), in eight colours like a chessboard of three dimensions. A tile's
+/// region is the tile and half a tile around it; regions of one colour do not overlap, so the tiles of a colour may be worked on at the same time,
+/// each by one thread, block after block, in ascending order of the block's vertices. A vertex whose move would reach out of its tile's region
+/// waits until the end of the sweep, when one thread does what is left, in the order of colours and tiles.
 class SweepSchedule {
  public:
   struct Tile {

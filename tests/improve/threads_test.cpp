@@ -39,8 +39,30 @@ TEST(Threads, CreateNoIntersection) {
   EXPECT_LE(intersecting_pairs(after).size(), intersecting_pairs(before).size());
 }
 
-TEST(SweepSchedule, VisitsEveryVertexOnceAndKeepsRegionsOfAColourApart) {
-  const TriangleMesh mesh = many_tiles();
+/// Large enough for large tiles.
+TriangleMesh large_mesh() {
+  return noisy(torus(10, 3, 820, 500), 0.005, 5);
+}
+
+TEST(Threads, GiveTheSameBytesOnALargeMesh) {
+  const auto smoothed_with = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    TriangleMesh mesh = large_mesh();
+    SmoothingOptions options;
+    options.rounds = 2;
+    smooth(mesh, options);
+    return mesh;
+  };
+  const TriangleMesh one = smoothed_with(1);
+  EXPECT_FALSE(is_same(one, large_mesh()));
+  EXPECT_TRUE(is_same(smoothed_with(3), one));
+}
+
+class SweepSchedules : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(SmallAndLargeTiles, SweepSchedules, ::testing::Bool());
+
+TEST_P(SweepSchedules, VisitEveryVertexOnceAndKeepRegionsOfAColourApart) {
+  const TriangleMesh mesh = GetParam() ? large_mesh() : many_tiles();
   const TriangleGrid grid(mesh.points, mesh.triangles);
   std::vector<VertexId> some;
   for (VertexId v = 0; v < mesh.vertex_count(); v += 3) some.push_back(v);
