@@ -25,6 +25,10 @@ inline bool is_known(const NormalCone& cone) {
 inline Vec3 axis_of(const NormalCone& cone) {
   return {cone.axis[0], cone.axis[1], cone.axis[2]};
 }
+/// The same in single precision.
+inline Eigen::Vector3f single_axis_of(const NormalCone& cone) {
+  return {cone.axis[0], cone.axis[1], cone.axis[2]};
+}
 
 /// A component n · axis of a doubled area vector of edges no longer than L, |axis| ≤ 1, carries a rounding error below 5√3·2⁻⁵³ L²; forty
 /// times that is safe and still far below the area of any triangle that can be told from a degenerate one.

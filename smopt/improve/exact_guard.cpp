@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "smopt/geometry/predicates.h"
 #include "smopt/geometry/swept_triangle.h"
 
 namespace smopt {
@@ -10,10 +9,6 @@ namespace {
 
 /// Up to this valence a linear search of the ring is the fastest way to find a vertex on it.
 constexpr std::size_t kLinearSearch = 64;
-
-Eigen::Vector3f single(const NormalCone& cone) {
-  return {cone.axis[0], cone.axis[1], cone.axis[2]};
-}
 
 }  // namespace
 
@@ -43,9 +38,8 @@ bool ExactGuard::is_within_region() const {
 }
 
 bool ExactGuard::is_ok() {
-  judge_star();
-  if (!is_star_ok()) return false;
-  judge_ring_cones();
+  is_separation_ready_ = false;
+  if (!star_.is_free_of_folds(*move_)) return false;
   if (!surroundings_.covers(reach_box_)) fetch_surroundings();
   if (!is_clear_of_surroundings()) return false;
   compute_boxes();
@@ -70,83 +64,16 @@ Box ExactGuard::star_box(VertexId v) const {
   return box;
 }
 
-void ExactGuard::judge_star() {
-  is_separation_ready_ = false;
-  at_target_.directions.clear();
-  for (const Vec3& n : move_->target_normals()) at_target_.directions.push_back(reliable_direction(n, move_->target_longest2()));
-}
-
-bool ExactGuard::is_star_ok() {
-  const NormalCone& known = surface_.cones[move_->vertex()];
-  const Eigen::Vector3f axis = single(known);
-  at_target_.is_projected =
-      known.squared_sine < NormalCone::kNoBound && std::all_of(at_target_.directions.begin(), at_target_.directions.end(),
-                                                               [&](const auto& d) { return d.dot(axis) > 2 * kConeRounding; });
-  if (at_target_.is_projected) {
-    at_target_.cone = cone_around(at_target_.directions);
-    if (!is_known(at_target_.cone)) at_target_.cone = {known.axis, NormalCone::kNoBound};
-    return true;
-  }
-  at_target_.cone = find_own_cone();
-  return is_known(at_target_.cone) || (is_fold_free_at_target() && is_fold_free_on_the_way());
-}
-
-NormalCone ExactGuard::find_own_cone() {
-  scratch_star_.center_from = move_->position();
-  scratch_star_.center_to = move_->target();
-  scratch_star_.ring_from = move_->ring_points();
-  scratch_star_.ring_to = move_->ring_points();
-  return find_cone(scratch_star_);
-}
-
-NormalCone ExactGuard::find_ring_cone(std::size_t slot) {
-  const VertexId center = move_->ring()[slot];
-  scratch_star_.center_from = scratch_star_.center_to = surface_.mesh.points[center];
-  scratch_star_.ring_from.clear();
-  scratch_star_.ring_to.clear();
-  for (const VertexId w : surface_.rings.vertices(center)) {
-    scratch_star_.ring_from.push_back(surface_.mesh.points[w]);
-    scratch_star_.ring_to.push_back(w == move_->vertex() ? move_->target() : surface_.mesh.points[w]);
-  }
-  return find_cone(scratch_star_);
-}
-
-void ExactGuard::judge_ring_cones() {
-  at_target_.ring_cones.resize(move_->valence());
-  for (std::size_t k = 0; k < move_->valence(); ++k) {
-    NormalCone cone = surface_.cones[move_->ring()[k]];
-    widen(cone, at_target_.directions[k]);
-    widen(cone, at_target_.directions[move_->previous(k)]);
-    at_target_.ring_cones[k] = cone.squared_sine < NormalCone::kNoBound ? cone : find_ring_cone(k);
-  }
-}
-
-bool ExactGuard::is_ring_vertex_seen_along(VertexId w, const Eigen::Vector3f& axis) const {
-  const NormalCone& cone = surface_.cones[w];
-  if (is_seen_along(cone, axis)) return true;
-  if (cone.squared_sine == NormalCone::kNoBound) return false;
-  const Vec3& center = surface_.mesh.points[w];
-  const std::span<const VertexId> ring = surface_.rings.vertices(w);
-  Vec3 spoke = surface_.mesh.points[ring.back()] - center;
-  for (const VertexId u : ring) {
-    const Vec3 next_spoke = surface_.mesh.points[u] - center;
-    const double longest2 = std::max(spoke.squaredNorm(), next_spoke.squaredNorm());
-    if (!(reliable_direction(spoke.cross(next_spoke), longest2).dot(axis) > 2 * kConeRounding)) return false;
-    spoke = next_spoke;
-  }
-  return true;
-}
-
 void ExactGuard::draw_outline() {
   settled_ = with_cone_ = 0;
-  has_outline_ = at_target_.is_projected && move_->valence() <= StarOutline::kMaxValence;
+  has_outline_ = star_.is_projected() && move_->valence() <= StarOutline::kMaxValence;
   if (!has_outline_) return;
-  const Eigen::Vector3f axis = single(surface_.cones[move_->vertex()]);
+  const Eigen::Vector3f axis = single_axis_of(surface_.cones[move_->vertex()]);
   outline_.set(move_->spokes(), move_->displacement(), axis, move_->position() - surroundings_.center(), surroundings_.radius());
   for (std::size_t k = 0; k < move_->valence(); ++k) {
     const VertexId w = move_->ring()[k];
-    with_cone_ |= (is_known(at_target_.ring_cones[k]) ? 1U : 0U) << k;
-    if (outline_.is_convex_at(k) && is_ring_vertex_seen_along(w, axis)) settled_ |= 1U << k;
+    with_cone_ |= (is_known(star_.ring_cones()[k]) ? 1U : 0U) << k;
+    if (outline_.is_convex_at(k) && star_.is_ring_vertex_seen_along(w, axis)) settled_ |= 1U << k;
     bits_.set(w, 1U << k);
   }
 }
@@ -190,64 +117,34 @@ bool ExactGuard::is_clear_by_outline(const TriangleBatch::Entry& triangle, unsig
 void ExactGuard::compute_boxes() {
   const std::span<const FaceId> faces = move_->faces();
   const Box target = surface_.grid.box_of(move_->target());
-  at_target_.boxes.resize(faces.size());
-  at_target_.leaves_home.resize(faces.size());
+  new_boxes_.resize(faces.size());
+  leaves_home_.resize(faces.size());
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    at_target_.boxes[k] = united(united(ring_boxes_[k], ring_boxes_[move_->next(k)]), target);
-    at_target_.leaves_home[k] = surface_.grid.stays_at_home(faces[k], at_target_.boxes[k]) ? 0 : 1;
+    new_boxes_[k] = united(united(ring_boxes_[k], ring_boxes_[move_->next(k)]), target);
+    leaves_home_[k] = surface_.grid.stays_at_home(faces[k], new_boxes_[k]) ? 0 : 1;
   }
 }
 
 bool ExactGuard::must_wait() const {
   if (region_ == nullptr) return false;
   for (std::size_t k = 0; k < move_->valence(); ++k)
-    if (at_target_.leaves_home[k] != 0 && surface_.grid.needs_whole_grid(at_target_.boxes[k])) return true;
+    if (leaves_home_[k] != 0 && surface_.grid.needs_whole_grid(new_boxes_[k])) return true;
   return false;
 }
 
 void ExactGuard::apply() {
   surface_.mesh.points[move_->vertex()] = move_->target();
-  surface_.cones[move_->vertex()] = at_target_.cone;
+  surface_.cones[move_->vertex()] = star_.cone();
   const std::span<const FaceId> faces = move_->faces();
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    surface_.cones[move_->ring()[k]] = at_target_.ring_cones[k];
-    if (at_target_.leaves_home[k] != 0)
-      surface_.grid.move(faces[k], at_target_.boxes[k]);
+    surface_.cones[move_->ring()[k]] = star_.ring_cones()[k];
+    if (leaves_home_[k] != 0)
+      surface_.grid.move(faces[k], new_boxes_[k]);
     else
-      surface_.grid.move_at_home(faces[k], at_target_.boxes[k]);
+      surface_.grid.move_at_home(faces[k], new_boxes_[k]);
   }
   for (const std::uint32_t i : star_places_)
     surroundings_.move_corner(i, move_->vertex(), move_->target(), surface_.grid.box(surroundings_[i].face));
-}
-
-bool ExactGuard::is_fold_free_at_target() const {
-  const Vec3& target = move_->target();
-  const std::vector<Vec3>& ring = move_->ring_points();
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (are_collinear(target, ring[i], ring[move_->next(i)])) return false;
-    if (triangles_meet_beyond_edge({target, ring[i], ring[move_->previous(i)]}, {target, ring[i], ring[move_->next(i)]})) return false;
-    for (std::size_t j = i + 2; j < ring.size(); ++j) {
-      if (move_->next(j) == i) continue;  // shares an edge with i: tested as a neighbour
-      if (triangles_meet_beyond_vertex({target, ring[i], ring[move_->next(i)]}, {target, ring[j], ring[move_->next(j)]})) return false;
-    }
-  }
-  return true;
-}
-
-bool ExactGuard::is_fold_free_on_the_way() const {
-  const std::vector<Vec3>& ring = move_->ring_points();
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec3 &a = ring[k], &b = ring[move_->next(k)];
-    for (std::size_t j = 0; j < ring.size(); ++j) {
-      if (j == k || j == move_->next(k)) continue;
-      const Vec3& c = ring[j];
-      const int before = orient3d(a, b, c, move_->position()), after = orient3d(a, b, c, move_->target());
-      if (before == 0 && after == 0) return false;      // slides in one plane, where only a cone can vouch for it
-      if (before == 0 || before * after > 0) continue;  // leaves a contact, or never comes to one
-      if (touches_sector_on_the_way(a, b, c, move_->position(), move_->target())) return false;
-    }
-  }
-  return true;
 }
 
 Vec3 ExactGuard::mean_normal() const {
@@ -259,7 +156,7 @@ Vec3 ExactGuard::mean_normal() const {
 void ExactGuard::prepare_separation() {
   is_separation_ready_ = true;
   separation_.set_star(move_->spokes());
-  separation_.set_target(move_->displacement(), is_known(at_target_.cone) ? axis_of(at_target_.cone) : mean_normal());
+  separation_.set_target(move_->displacement(), is_known(star_.cone()) ? axis_of(star_.cone()) : mean_normal());
   if (move_->valence() <= kLinearSearch || !ring_order_.empty()) return;
   for (std::size_t i = 0; i < move_->valence(); ++i) ring_order_.emplace_back(move_->ring()[i], static_cast<int>(i));
   std::sort(ring_order_.begin(), ring_order_.end());
@@ -285,7 +182,7 @@ bool ExactGuard::is_clear_of(const TriangleBatch::Entry& triangle) {
     slots[i] = slot_of(triangle.corners[i]);
     corners[i] = (surface_.mesh.points[triangle.corners[i]] - move_->position()).cast<float>();
     // A cone of a shared vertex settles the two triangles of the star that have the vertex too.
-    if (slots[i] == kNotOnRing || !is_known(at_target_.ring_cones[static_cast<std::size_t>(slots[i])])) continue;
+    if (slots[i] == kNotOnRing || !is_known(star_.ring_cones()[static_cast<std::size_t>(slots[i])])) continue;
     separation_.close(static_cast<std::size_t>(slots[i]));
     separation_.close(move_->previous(static_cast<std::size_t>(slots[i])));
   }

@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "smopt/geometry/normal_cone.h"
 #include "smopt/geometry/star_outline.h"
 #include "smopt/geometry/sweep_separation.h"
 #include "smopt/geometry/triangle_batch.h"
 #include "smopt/improve/move_guard.h"
+#include "smopt/improve/star_judge.h"
+#include "smopt/improve/vertex_bits.h"
 
 namespace smopt {
 
@@ -31,7 +32,7 @@ namespace smopt {
 /// Cost: about a microsecond a move.
 class ExactGuard final : public MoveGuard {
  public:
-  explicit ExactGuard(GuardedSurface& surface) : surface_(surface) {}
+  explicit ExactGuard(GuardedSurface& surface) : surface_(surface), star_(surface) {}
 
   void enter(std::span<const VertexId> group, const TriangleGrid::CubeRange* region) override;
   void select(const StarMove& move, const Vec3& reach) override;
@@ -42,52 +43,14 @@ class ExactGuard final : public MoveGuard {
   void apply() override;
 
  private:
-  /// A bit for each ring vertex of a short ring, and one for the vertex itself: which of them a triangle has. Kept by a part of the vertex's
-  /// number; a vertex that finds its place taken has no bit, and its triangles get the general treatment.
-  class VertexBits {
-   public:
-    static constexpr unsigned kCenter = 1U << 31;
-    VertexBits() { places_.fill({kFree, 0}); }
-    void set(VertexId v, unsigned bit) {
-      Place& place = places_[v % kPlaces];
-      if (place.vertex == kFree) place = {v, bit};
-    }
-    void unset(VertexId v) { places_[v % kPlaces] = {kFree, 0}; }
-    [[nodiscard]] unsigned of(const std::array<VertexId, 3>& t) const { return of(t[0]) | of(t[1]) | of(t[2]); }
-
-   private:
-    struct Place {
-      VertexId vertex;
-      unsigned bit;
-    };
-    [[nodiscard]] unsigned of(VertexId v) const {
-      const Place& place = places_[v % kPlaces];
-      return place.bit & (0U - static_cast<unsigned>(place.vertex == v));
-    }
-    static constexpr std::size_t kPlaces = 256;
-    static constexpr VertexId kFree = 0xFFFFFFFF;
-    std::array<Place, kPlaces> places_{};
-  };
-  /// What the last answer has found out about the star at the target.
-  struct StarAtTarget {
-    std::vector<Eigen::Vector3f> directions;  // of the normals, as `reliable_direction`
-    NormalCone cone;                          // the vertex's
-    std::vector<NormalCone> ring_cones;       // the ring vertices'
-    bool is_projected = false;                // along the axis that the vertex had already, with room for rounding
-    std::vector<Box> boxes;                   // of the triangles, in the grid's frame
-    std::vector<char> leaves_home;            // whether the grid has to list a triangle elsewhere
+  /// A triangle that may be in the way.
+  struct Open {
+    std::uint32_t place;  // in the surroundings
+    unsigned own;         // ring vertices that it has, a bit each
   };
 
   void fetch_surroundings();
-  void judge_star();
-  [[nodiscard]] bool is_star_ok();
-  [[nodiscard]] bool is_fold_free_at_target() const;
-  [[nodiscard]] bool is_fold_free_on_the_way() const;
-  [[nodiscard]] NormalCone find_own_cone();
-  [[nodiscard]] NormalCone find_ring_cone(std::size_t slot);
-  void judge_ring_cones();
   void draw_outline();
-  [[nodiscard]] bool is_ring_vertex_seen_along(VertexId w, const Eigen::Vector3f& axis) const;
   void sort_surroundings();
   [[nodiscard]] bool is_clear_of_surroundings();
   [[nodiscard]] bool is_clear_by_outline(const TriangleBatch::Entry& triangle, unsigned own) const;
@@ -113,21 +76,18 @@ class ExactGuard final : public MoveGuard {
   std::vector<std::pair<VertexId, int>> ring_order_;  // ring vertices and their places, sorted; only for long rings
 
   // The target asked for last.
-  StarAtTarget at_target_;
+  StarJudge star_;
   StarOutline outline_;
   bool has_outline_ = false;
-  unsigned with_cone_ = 0;  // a bit per ring vertex: its cone is known
-  VertexBits bits_;
+  VertexBits bits_;                         // of the vertex and, where there is an outline, of its ring
+  unsigned with_cone_ = 0;                  // ring vertices whose cone is known, a bit each
   unsigned settled_ = 0;                    // ring vertices whose triangles need no look
   std::vector<std::uint32_t> star_places_;  // of the star's triangles in the surroundings
-  struct Open {
-    std::uint32_t place;  // in the surroundings
-    unsigned own;         // ring vertices that the triangle has
-  };
-  std::vector<Open> open_;  // triangles that may be in the way
+  std::vector<Open> open_;
   bool is_separation_ready_ = false;
   SweepSeparation separation_;
-  MovingStar scratch_star_;
+  std::vector<Box> new_boxes_;     // of the star's triangles, in the grid's frame
+  std::vector<char> leaves_home_;  // per triangle of the star: whether the grid has to list it elsewhere
 };
 
 }  // namespace smopt

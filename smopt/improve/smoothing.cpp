@@ -30,7 +30,7 @@ class Smoother {
 
   SmoothingReport run() {
     Screening screening(surface_.mesh, surface_.rings, options_.thresholds);
-    sweep(SweepSchedule(surface_.grid, surface_.mesh, vertices_with_star(order_)));
+    sweep(SweepSchedule(surface_.grid, surface_.mesh, vertices_with_star()));
     ActiveSet active = screening.of_all();
     while (!is_finished(active)) {
       sweep_until_screening(SweepSchedule(surface_.grid, surface_.mesh, active.vertices));
@@ -42,10 +42,10 @@ class Smoother {
   }
 
  private:
-  [[nodiscard]] std::vector<VertexId> vertices_with_star(const std::vector<VertexId>& order) const {
+  [[nodiscard]] std::vector<VertexId> vertices_with_star() const {
     std::vector<VertexId> vertices;
-    vertices.reserve(order.size());
-    for (const VertexId v : order)
+    vertices.reserve(order_.size());
+    for (const VertexId v : order_)
       if (surface_.rings.valence(v) > 0) vertices.push_back(v);
     return vertices;
   }
@@ -157,7 +157,7 @@ class Smoother {
   const std::vector<VertexId>& order_;
   GuardedSurface surface_;
   tbb::enumerable_thread_specific<VertexMover> movers_;
-  std::vector<char> is_stuck_;     // per vertex: refused, and nothing around it has moved since
+  std::vector<char> is_stuck_;     // per vertex: refused, and its ring has not moved since
   std::vector<Vec3> steps_;        // per vertex: proposed at the beginning of the sweep (Jacobi only)
   bool has_come_to_rest_ = false;  // a newly chosen active set has not moved
   SmoothingReport report_;
