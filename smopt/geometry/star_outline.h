@@ -17,7 +17,7 @@ namespace smopt {
 ///    outside the angle, so they share w alone, or the edge, and over these lies nothing else of either.
 ///  - A triangle beyond a side of the octagon around the polygon, or above or below all of it, does not meet what is swept.
 ///  - Where a line parts a triangle, seen along the axis, from a triangle of the star and its target, neither's vertex on it, the triangle does not
-///    meet what that one sweeps. Tried are the sides of the one and the ring's edges.
+///    meet what that one sweeps. Tried are the sides of the one, the edges of the ring and the spokes of the star.
 ///
 /// All by single-precision numbers with margins above their rounding.
 class StarOutline {
