@@ -11,6 +11,7 @@
 #include "smopt/improve/prepare.h"
 #include "smopt/io/off.h"
 #include "smopt/io/sha256.h"
+#include "smopt/peak_memory.h"
 
 namespace smopt::experiments {
 namespace {

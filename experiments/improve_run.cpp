@@ -6,7 +6,6 @@
 
 #include <array>
 #include <charconv>
-#include <fstream>
 
 #include "baselines/baselines.h"
 #include "metrics/intersections.h"
@@ -14,6 +13,7 @@
 #include "smopt/io/mesh_io.h"
 #include "smopt/io/off.h"
 #include "smopt/io/sha256.h"
+#include "smopt/peak_memory.h"
 #include "smopt/version.h"
 
 namespace smopt::experiments {
@@ -116,14 +116,6 @@ Json options_json(const Method& method, const OptionValues& values) {
   Json options = Json::object();
   for (const MethodOption& option : method.options) options[option.name] = number_or_text(option, values.text(option.name));
   return options;
-}
-
-double peak_memory_mb() {
-  // Not getrusage: its ru_maxrss survives exec, so that it counts the memory of whoever started the program.
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
-  return 0;
 }
 
 ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& progress) {

@@ -43,7 +43,4 @@ void add_outcome(nlohmann::ordered_json& report, const PreparationReport& prepar
 /// All options of a method with the defaults filled in, numbers as numbers.
 nlohmann::ordered_json options_json(const Method& method, const OptionValues& values);
 
-/// Largest resident memory of this process so far, MB.
-double peak_memory_mb();
-
 }  // namespace smopt::experiments

@@ -8,6 +8,7 @@
 #include "smopt/error.h"
 #include "smopt/io/molecule.h"
 #include "smopt/io/sha256.h"
+#include "smopt/peak_memory.h"
 
 namespace smopt::experiments {
 namespace {

@@ -7,11 +7,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <stdexcept>
-#include <string_view>
 #include <thread>
 
+#include "smopt/peak_memory.h"
 #include "smopt/timing.h"
 
 namespace smopt::bench {
@@ -20,15 +19,7 @@ namespace {
 /// Between two looks at the program: short beside the shortest run (0.2 s), long beside what a look costs (20 µs).
 constexpr std::chrono::milliseconds kLookEvery{1};
 
-/// VmHWM of the process, bytes; 0 when it has ended.
-double peak_memory(pid_t pid) {
-  constexpr std::string_view kKey = "VmHWM:";
-  constexpr double kBytesPerKb = 1024;
-  std::ifstream file(fmt::format("/proc/{}/status", pid));
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with(kKey)) return kBytesPerKb * std::stod(line.substr(kKey.size()));
-  return 0;
-}
+constexpr double kBytesPerMb = 1 << 20;
 
 pid_t start(const std::vector<std::string>& arguments) {
   std::vector<char*> pointers;
@@ -48,7 +39,7 @@ ChildRun run_child(const std::vector<std::string>& arguments) {
   const pid_t pid = start(arguments);
   int status = 0;
   while (waitpid(pid, &status, WNOHANG) == 0) {
-    run.peak_bytes = std::max(run.peak_bytes, peak_memory(pid));
+    run.peak_bytes = std::max(run.peak_bytes, kBytesPerMb * peak_memory_mb_of(std::to_string(pid)));
     std::this_thread::sleep_for(kLookEvery);
   }
   run.seconds = stopwatch.elapsed().wall;

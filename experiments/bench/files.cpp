@@ -2,9 +2,10 @@
 
 #include "experiments/bench/bench_mesh.h"
 #include "experiments/bench/benchmarks.h"
-#include "experiments/bench/scratch_folder.h"
+#include "experiments/bench/registration.h"
 #include "experiments/bench/threads.h"
 #include "smopt/io/mesh_io.h"
+#include "smopt/io/scratch_folder.h"
 #include "smopt/timing.h"
 
 namespace smopt::bench {
@@ -14,7 +15,7 @@ namespace {
 void measure_off(benchmark::State& state) {
   const ThreadLimit limit(state.range(0));
   const TriangleMesh& mesh = bench_mesh(static_cast<int>(state.range(1))).surface;
-  const ScratchFolder folder;
+  const ScratchFolder folder("bench");
   const std::filesystem::path path = folder / "mesh.off";
   StageTimes times;
   for (auto _ : state) {
@@ -32,12 +33,7 @@ void measure_off(benchmark::State& state) {
 }  // namespace
 
 void register_files(const Sizes& sizes) {
-  benchmark::RegisterBenchmark("off", measure_off)
-      ->ArgNames({"threads", "copies"})
-      ->ArgsProduct({{1, 2}, sizes})
-      ->Iterations(1)
-      ->UseManualTime()
-      ->Unit(benchmark::kSecond);
+  with_threads(benchmark::RegisterBenchmark("off", measure_off), sizes);
 }
 
 }  // namespace smopt::bench

@@ -5,10 +5,11 @@
 #include "experiments/bench/bench_mesh.h"
 #include "experiments/bench/benchmarks.h"
 #include "experiments/bench/child_run.h"
-#include "experiments/bench/scratch_folder.h"
+#include "experiments/bench/registration.h"
 #include "experiments/bench/threads.h"
 #include "smopt/improve/improve.h"
 #include "smopt/io/mesh_io.h"
+#include "smopt/io/scratch_folder.h"
 #include "smopt/timing.h"
 
 namespace smopt::bench {
@@ -28,7 +29,7 @@ void measure_improve(benchmark::State& state) {
 
 /// `smopt improve IN -o OUT`, files included.
 void measure_program(benchmark::State& state, const std::string& program) {
-  const ScratchFolder folder;
+  const ScratchFolder folder("bench");
   const std::string input = (folder / "surface.off").string(), output = (folder / "improved.off").string();
   const TriangleMesh& mesh = bench_mesh(static_cast<int>(state.range(1))).surface;
   const auto vertices = static_cast<double>(mesh.vertex_count()), triangles = static_cast<double>(mesh.triangle_count());
@@ -47,18 +48,8 @@ void measure_program(benchmark::State& state, const std::string& program) {
 }  // namespace
 
 void register_improvement(const Sizes& sizes, const std::string& program) {
-  benchmark::RegisterBenchmark("improve", measure_improve)
-      ->ArgNames({"threads", "copies"})
-      ->ArgsProduct({{1, 2}, sizes})
-      ->Iterations(1)
-      ->UseManualTime()
-      ->Unit(benchmark::kSecond);
-  benchmark::RegisterBenchmark("program", measure_program, program)
-      ->ArgNames({"threads", "copies"})
-      ->ArgsProduct({{1, 2}, sizes})
-      ->Iterations(1)
-      ->UseManualTime()
-      ->Unit(benchmark::kSecond);
+  with_threads(benchmark::RegisterBenchmark("improve", measure_improve), sizes);
+  with_threads(benchmark::RegisterBenchmark("program", measure_program, program), sizes);
 }
 
 }  // namespace smopt::bench

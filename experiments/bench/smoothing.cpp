@@ -5,6 +5,7 @@
 #include "experiments/bench/bench_mesh.h"
 #include "experiments/bench/benchmarks.h"
 #include "experiments/bench/floor_laplacian.h"
+#include "experiments/bench/registration.h"
 #include "experiments/bench/threads.h"
 #include "smopt/timing.h"
 
@@ -67,18 +68,8 @@ void measure_smoothing(benchmark::State& state) {
 void register_smoothing(const Sizes& sizes) {
   using Loop = FloorLaplacian::Loop;
   for (const auto& [name, loop] : {std::pair{"floor", Loop::branchless}, std::pair{"floor_straightforward", Loop::straightforward}})
-    benchmark::RegisterBenchmark(name, measure_floor, loop)
-        ->ArgName("copies")
-        ->ArgsProduct({sizes})
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kSecond);
-  benchmark::RegisterBenchmark("smoothing", measure_smoothing)
-      ->ArgNames({"threads", "copies"})
-      ->ArgsProduct({{1, 2}, sizes})
-      ->Iterations(1)
-      ->UseManualTime()
-      ->Unit(benchmark::kSecond);
+    timed_once(benchmark::RegisterBenchmark(name, measure_floor, loop))->ArgName("copies")->ArgsProduct({sizes});
+  with_threads(benchmark::RegisterBenchmark("smoothing", measure_smoothing), sizes);
 }
 
 }  // namespace smopt::bench

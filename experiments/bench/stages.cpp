@@ -2,6 +2,7 @@
 
 #include "experiments/bench/bench_mesh.h"
 #include "experiments/bench/benchmarks.h"
+#include "experiments/bench/registration.h"
 #include "experiments/bench/threads.h"
 #include "smopt/improve/prepare.h"
 #include "smopt/improve/redundant_points.h"
@@ -29,12 +30,7 @@ void measure_stages(benchmark::State& state) {
 }  // namespace
 
 void register_stages(const Sizes& sizes) {
-  benchmark::RegisterBenchmark("stages", measure_stages)
-      ->ArgNames({"threads", "copies"})
-      ->ArgsProduct({{1, 2}, sizes})
-      ->Iterations(1)
-      ->UseManualTime()
-      ->Unit(benchmark::kSecond);
+  with_threads(benchmark::RegisterBenchmark("stages", measure_stages), sizes);
 }
 
 }  // namespace smopt::bench

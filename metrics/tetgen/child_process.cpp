@@ -13,8 +13,9 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <fstream>
 #include <thread>
+
+#include "smopt/peak_memory.h"
 
 namespace smopt::metrics {
 namespace {
@@ -51,14 +52,6 @@ class Descriptor {
 void set_limit(int resource, rlim_t value) {
   const rlimit limit{value, value};
   setrlimit(static_cast<__rlimit_resource>(resource), &limit);
-}
-
-/// VmHWM of a process, MB; 0 when it has ended.
-double peak_memory_mb_of(pid_t pid) {
-  std::ifstream status(fmt::format("/proc/{}/status", pid));
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
-  return 0;
 }
 
 /// In the child, between fork and exec: calls that are safe there only.
@@ -128,7 +121,7 @@ class Child {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
-  void look_at_memory() { peak_memory_mb_ = std::max(peak_memory_mb_, peak_memory_mb_of(pid_)); }
+  void look_at_memory() { peak_memory_mb_ = std::max(peak_memory_mb_, peak_memory_mb_of(std::to_string(pid_))); }
 
   void kill_all() const { kill(-pid_, SIGKILL); }
 

@@ -1,7 +1,6 @@
 #include "metrics/tetgen/tetrahedralize.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include "metrics/tetgen/worker_location.h"
 #include "metrics/tetgen/worker_protocol.h"
 #include "smopt/error.h"
+#include "smopt/io/scratch_folder.h"
 
 namespace smopt::metrics {
 namespace {
@@ -30,27 +30,6 @@ constexpr std::size_t kLongestSwitches = 200;                       ///< TetGen 
 
 /// TetGen counts points and facets in ints, and three times as many array entries.
 constexpr std::size_t kLargestCount = std::numeric_limits<int>::max() / 3;
-
-class TaskFolder {
- public:
-  TaskFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "smopt-tetgen-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw InvalidInput(fmt::format("cannot make the temporary folder {}", name));
-    path_ = name;
-  }
-  ~TaskFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TaskFolder(const TaskFolder&) = delete;
-  TaskFolder& operator=(const TaskFolder&) = delete;
-
-  [[nodiscard]] std::filesystem::path task() const { return path_ / "task"; }
-  [[nodiscard]] std::filesystem::path answer() const { return path_ / "answer"; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The surface without the points that are in no triangle, and where its points come from.
 struct Trimmed {
@@ -181,11 +160,12 @@ class Attempt {
  private:
   void ask_worker() {
     const std::filesystem::path worker = find_tetgen_worker();
-    const TaskFolder folder;
-    worker::write_bytes(folder.task(), worker::encode(worker::Task{switches_for_worker(options_.switches), trimmed_.surface}));
-    process_ = run_process({worker.string(), folder.task().string(), folder.answer().string()},
-                           {options_.time_limit_seconds, options_.memory_limit_mb}, "tetgen", options_.progress);
-    read_answer(folder.answer());
+    const ScratchFolder folder("tetgen");
+    const std::filesystem::path task = folder / "task", answer = folder / "answer";
+    worker::write_bytes(task, worker::encode(worker::Task{switches_for_worker(options_.switches), trimmed_.surface}));
+    process_ = run_process({worker.string(), task.string(), answer.string()}, {options_.time_limit_seconds, options_.memory_limit_mb},
+                           "tetgen", options_.progress);
+    read_answer(answer);
   }
 
   void read_answer(const std::filesystem::path& path) {

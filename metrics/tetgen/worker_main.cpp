@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <string>
 
 #include "metrics/tetgen/worker_protocol.h"
+#include "smopt/peak_memory.h"
 
 #define TETLIBRARY
 #include <tetgen.h>
@@ -36,14 +36,6 @@ std::string tetgen_version() {
     if (const auto at = name.find(kBeforeVersion); at != std::string::npos) return name.substr(at + kBeforeVersion.size());
   }
   return SMOPT_TETGEN_HEADER_VERSION;
-}
-
-/// Largest resident memory of this process since it was started as this program; wait4's figure would count its parent's, too.
-double peak_memory_mb() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
-  return 0;
 }
 
 void write_answer(std::optional<int> code) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/machine.h"
+#include "smopt/peak_memory.h"
 
 namespace smopt::experiments {
 namespace {

@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <string_view>
 
-namespace smopt::bench {
+namespace smopt {
 
-/// A new folder for files, removed at the end of the scope.
+/// A new folder for temporary files, removed at the end of the scope.
 class ScratchFolder {
  public:
-  ScratchFolder();
+  /// \param purpose  stands in the folder's name. \throws InvalidInput when the folder cannot be made.
+  explicit ScratchFolder(std::string_view purpose);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
@@ -19,4 +20,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace smopt::bench
+}  // namespace smopt
