@@ -5,26 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <string>
+
+#include "smopt/error.h"
 
 namespace smopt {
 namespace {
 
-/// More nodes than this are refused (16 GiB of values): a spacing that is far too small, or an atom that is far away.
-constexpr double kMostNodes = 2147483648.0;
-
 /// Largest exponent d·r² of a kernel: exp(300) = 2e130 leaves room for sums and products of two field values in a double.
 constexpr double kLargestExponent = 300;
 
-/// Progress is reported once in so many atoms.
-constexpr std::size_t kAtomsPerReport = 4096;
-
-void require_positive(double value, const char* name) {
-  if (!(std::isfinite(value) && value > 0)) throw InvalidOption(fmt::format("{} must be positive and finite, not {}", name, value));
-}
+/// Bits of a bin's place on an axis: 2 097 152 bins of half a reach (some 2.5 Å) are five million ångström.
+constexpr int kPlaceBits = 21;
+constexpr std::int64_t kMostPlaces = std::int64_t{1} << kPlaceBits;
 
 void check_options(const GaussianFieldOptions& options) {
-  require_positive(options.decay, "decay");
-  require_positive(options.spacing, "spacing");
+  if (!(std::isfinite(options.decay) && options.decay > 0))
+    throw InvalidOption(fmt::format("decay must be positive and finite, not {}", options.decay));
   if (!(options.least_term > 0 && options.least_term < 1))
     throw InvalidOption(fmt::format("the least term must be between 0 and 1, not {}", options.least_term));
 }
@@ -48,70 +46,44 @@ void check_molecule(const Molecule& molecule, double decay) {
   }
 }
 
-/// Samples the kernels of a checked molecule one after another.
-class FieldSampler {
+double squared_distance_to_box(const Vec3& x, const Vec3& low, const Vec3& high) {
+  return (x - x.cwiseMax(low).cwiseMin(high)).squaredNorm();
+}
+
+/// One kernel on one axis: exp(-d·(x - center)²) at the nodes from `first` on.
+struct Profile {
+  std::size_t first = 0;
+  std::vector<double> values;
+};
+
+/// Adds kernels to the nodes of a block one after another. Which node gets a kernel depends on the node and the atom alone, not on the block.
+class KernelAdder {
  public:
-  FieldSampler(const Molecule& molecule, const GaussianFieldOptions& options) : molecule_(molecule), options_(options) { lay_out_grid(); }
+  KernelAdder(ScalarGrid& grid, double decay, double least_term) : grid_(grid), decay_(decay), least_term_(least_term) {}
 
-  ScalarGrid run(const ProgressCallback& progress) {
-    grid_.values.assign(grid_.node_count(), 0.0);
-    const std::size_t n = molecule_.atom_count();
-    for (std::size_t atom = 0; atom < n; ++atom) {
-      if (atom % kAtomsPerReport == 0) report_progress(progress, "field", static_cast<double>(atom) / static_cast<double>(n));
-      add_kernel(molecule_.centers[atom], molecule_.radii[atom]);
-    }
-    return std::move(grid_);
-  }
-
- private:
-  /// One kernel on one axis: exp(-d·(x - center)²) at the nodes from `first` on.
-  struct Profile {
-    std::size_t first = 0;
-    std::vector<double> values;
-  };
-
-  /// The distance at which a kernel has fallen to the least term.
-  [[nodiscard]] double reach(double radius) const { return std::sqrt(radius * radius - std::log(options_.least_term) / options_.decay); }
-
-  void lay_out_grid() {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-    Vec3 high = -low;
-    for (std::size_t i = 0; i < molecule_.atom_count(); ++i) {
-      const Vec3 around = Vec3::Constant(reach(molecule_.radii[i]));
-      low = low.cwiseMin(molecule_.centers[i] - around);
-      high = high.cwiseMax(molecule_.centers[i] + around);
-    }
-    grid_.spacing = options_.spacing;
-    grid_.origin = low - Vec3::Constant(options_.spacing);  // one layer of zeros below, and at least one above
-    const Vec3 nodes = ((high - grid_.origin) / options_.spacing).array().ceil() + 2;
-    if (!(nodes.prod() <= kMostNodes)) {
-      throw InvalidInput(fmt::format("the grid would have {:.0f} x {:.0f} x {:.0f} nodes at a spacing of {}: more than 2^31", nodes.x(),
-                                     nodes.y(), nodes.z(), options_.spacing));
-    }
-    for (int axis = 0; axis < 3; ++axis) grid_.size[axis] = static_cast<std::uint32_t>(nodes[axis]);
-  }
-
-  void sample_profile(int axis, double center, double reach, Profile& profile) const {
-    const double innermost = grid_.size[axis] - 2.0;
-    const double first = std::max(1.0, std::ceil((center - reach - grid_.origin[axis]) / grid_.spacing));
-    const double last = std::min(innermost, std::floor((center + reach - grid_.origin[axis]) / grid_.spacing));
-    profile.first = static_cast<std::size_t>(first);
-    profile.values.clear();
-    for (std::size_t i = profile.first; i <= static_cast<std::size_t>(std::max(0.0, last)); ++i) {
-      const double distance = grid_.coordinate(axis, i) - center;
-      profile.values.push_back(std::exp(-options_.decay * distance * distance));
-    }
-  }
-
-  void add_kernel(const Vec3& center, double radius) {
-    const double amplitude = std::exp(options_.decay * radius * radius);
-    for (int axis = 0; axis < 3; ++axis) sample_profile(axis, center[axis], reach(radius), profiles_[axis]);
+  void add(const Vec3& center, double amplitude, double reach) {
+    for (int axis = 0; axis < 3; ++axis) sample_profile(axis, center[axis], reach, profiles_[axis]);
     const auto& [x, y, z] = profiles_;
+    if (x.values.empty()) return;
     for (std::size_t k = 0; k < z.values.size(); ++k) {
       for (std::size_t j = 0; j < y.values.size(); ++j) {
         const double factor = amplitude * z.values[k] * y.values[j];
-        if (factor >= options_.least_term) add_row(x, factor, &grid_.values[grid_.index(x.first, y.first + j, z.first + k)]);
+        if (factor >= least_term_) add_row(x, factor, &grid_.values[grid_.index(x.first, y.first + j, z.first + k)]);
       }
+    }
+  }
+
+ private:
+  void sample_profile(int axis, double center, double reach, Profile& profile) const {
+    const double offset = grid_.first[axis];
+    const double first = std::max(0.0, std::ceil((center - reach - grid_.origin[axis]) / grid_.spacing) - offset);
+    const double last = std::min(grid_.size[axis] - 1.0, std::floor((center + reach - grid_.origin[axis]) / grid_.spacing) - offset);
+    profile.values.clear();
+    if (!(first <= last)) return;
+    profile.first = static_cast<std::size_t>(first);
+    for (std::size_t i = profile.first; i <= static_cast<std::size_t>(last); ++i) {
+      const double distance = grid_.coordinate(axis, i) - center;
+      profile.values.push_back(std::exp(-decay_ * distance * distance));
     }
   }
 
@@ -119,18 +91,123 @@ class FieldSampler {
     for (std::size_t i = 0; i < x.values.size(); ++i) row[i] += factor * x.values[i];
   }
 
-  const Molecule& molecule_;
-  const GaussianFieldOptions& options_;
-  ScalarGrid grid_;
+  ScalarGrid& grid_;
+  double decay_;
+  double least_term_;
   std::array<Profile, 3> profiles_;
 };
 
 }  // namespace
 
-ScalarGrid gaussian_field(const Molecule& molecule, const GaussianFieldOptions& options, const ProgressCallback& progress) {
+GaussianField::GaussianField(const Molecule& molecule, const GaussianFieldOptions& options)
+    : decay_(options.decay), least_term_(options.least_term) {
   check_options(options);
   check_molecule(molecule, options.decay);
-  return FieldSampler(molecule, options).run(progress);
+  const std::size_t n = molecule.atom_count();
+  std::vector<Atom> atoms(n);
+  low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
+  high_ = -low_;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double squared = molecule.radii[i] * molecule.radii[i];
+    const double reach = std::sqrt(squared - std::log(least_term_) / decay_);
+    atoms[i] = {molecule.centers[i], std::exp(decay_ * squared), reach};
+    low_ = low_.cwiseMin(atoms[i].center - Vec3::Constant(reach));
+    high_ = high_.cwiseMax(atoms[i].center + Vec3::Constant(reach));
+    largest_reach_ = std::max(largest_reach_, reach);
+  }
+  bin_edge_ = std::max(0.5 * largest_reach_, (high_ - low_).maxCoeff() / static_cast<double>(kMostPlaces - 1));
+
+  std::vector<std::uint64_t> bin(n);
+  for (std::size_t i = 0; i < n; ++i) bin[i] = bin_of(place_of(atoms[i].center));
+  std::vector<std::uint32_t> order(n);
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return bin[a] < bin[b]; });
+  atoms_.reserve(n);
+  bins_.reserve(n);
+  for (const std::uint32_t i : order) {
+    atoms_.push_back(atoms[i]);
+    bins_.push_back(bin[i]);
+  }
+}
+
+std::array<std::int64_t, 3> GaussianField::place_of(const Vec3& x) const {
+  std::array<std::int64_t, 3> at{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = std::floor((x[axis] - low_[axis]) / bin_edge_);
+    at[axis] = static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(kMostPlaces - 1)));
+  }
+  return at;
+}
+
+std::uint64_t GaussianField::bin_of(const std::array<std::int64_t, 3>& at) const {
+  return static_cast<std::uint64_t>((at[2] << (2 * kPlaceBits)) | (at[1] << kPlaceBits) | at[0]);
+}
+
+/// Visits the atoms whose kernel reaches the box, in the order of `atoms_`; `visit` returns whether to go on.
+template <class Visit>
+void GaussianField::for_atoms_near(const Vec3& low, const Vec3& high, const Visit& visit) const {
+  const Vec3 around = Vec3::Constant(largest_reach_);
+  const auto first = place_of(low - around);
+  const auto last = place_of(high + around);
+  for (std::int64_t k = first[2]; k <= last[2]; ++k) {
+    for (std::int64_t j = first[1]; j <= last[1]; ++j) {
+      const auto begin = std::lower_bound(bins_.begin(), bins_.end(), bin_of({first[0], j, k})) - bins_.begin();
+      const std::uint64_t last_bin = bin_of({last[0], j, k});
+      for (auto i = static_cast<std::size_t>(begin); i < atoms_.size() && bins_[i] <= last_bin; ++i) {
+        const Atom& atom = atoms_[i];
+        if (squared_distance_to_box(atom.center, low, high) <= atom.reach * atom.reach && !visit(atom)) return;
+      }
+    }
+  }
+}
+
+bool GaussianField::reaches(const Vec3& low, const Vec3& high) const {
+  bool found = false;
+  for_atoms_near(low, high, [&](const Atom&) {
+    found = true;
+    return false;
+  });
+  return found;
+}
+
+double GaussianField::value(const Vec3& x) const {
+  double sum = 0;
+  for_atoms_near(x, x, [&](const Atom& atom) {
+    sum += atom.amplitude * std::exp(-decay_ * (x - atom.center).squaredNorm());
+    return true;
+  });
+  return sum;
+}
+
+FieldJet GaussianField::jet(const Vec3& x) const {
+  FieldJet jet;
+  for_atoms_near(x, x, [&](const Atom& atom) {
+    const Vec3 away = x - atom.center;
+    const double term = atom.amplitude * std::exp(-decay_ * away.squaredNorm());
+    jet.value += term;
+    jet.gradient += term * away;
+    jet.hessian += term * away * away.transpose();
+    return true;
+  });
+  jet.hessian = 4 * decay_ * decay_ * jet.hessian - 2 * decay_ * jet.value * Eigen::Matrix3d::Identity();
+  jet.gradient *= -2 * decay_;
+  return jet;
+}
+
+void GaussianField::sample(ScalarGrid& grid) const {
+  grid.values.assign(grid.node_count(), 0.0);
+  if (grid.values.empty()) return;
+  Vec3 low;
+  Vec3 high;
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = grid.coordinate(axis, 0);
+    high[axis] = grid.coordinate(axis, grid.size[axis] - 1);
+  }
+  KernelAdder adder(grid, decay_, least_term_);
+  for_atoms_near(low, high, [&](const Atom& atom) {
+    adder.add(atom.center, atom.amplitude, atom.reach);
+    return true;
+  });
 }
 
 }  // namespace smopt

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "smopt/surface/gaussian_field.h"
+#include "smopt/surface/gaussian_grid.h"
 #include "smopt/surface/trilinear_surface.h"
 
 namespace smopt {
@@ -15,7 +15,7 @@ namespace {
 /// ångström, as it does around atoms, each moves the surface by less than a millionth of an ångström.
 constexpr double kLeastTermRelative = 1e-6;
 
-GaussianFieldOptions field_options(const GaussianSurfaceOptions& options) {
+GaussianGridOptions field_options(const GaussianSurfaceOptions& options) {
   return {options.decay, options.spacing, kLeastTermRelative * std::min(1.0, options.isovalue)};
 }
 
@@ -32,7 +32,7 @@ TriangleMesh gaussian_surface(const Molecule& molecule, const GaussianSurfaceOpt
                               const ProgressCallback& progress) {
   if (!(std::isfinite(options.isovalue) && options.isovalue > 0))
     throw InvalidOption(fmt::format("isovalue must be positive and finite, not {}", options.isovalue));
-  const ScalarGrid field = gaussian_field(molecule, field_options(options), progress);
+  const ScalarGrid field = gaussian_grid(molecule, field_options(options), progress);
   require_reached(field, options.isovalue);
   TrilinearSurfaceReport met;
   TriangleMesh mesh = trilinear_surface(field, options.isovalue, &met, progress);

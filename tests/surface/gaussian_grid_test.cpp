@@ -1,4 +1,4 @@
-#include "smopt/surface/gaussian_field.h"
+#include "smopt/surface/gaussian_grid.h"
 
 #include <gmock/gmock.h>
 
@@ -39,10 +39,10 @@ double direct_sum(const Molecule& molecule, double decay, const Vec3& x) {
   return sum;
 }
 
-TEST(GaussianField, IsTheSumOfTheKernelsUpToTheTermsLeftOut) {
+TEST(GaussianGrid, IsTheSumOfTheKernelsUpToTheTermsLeftOut) {
   const Molecule molecule = random_molecule(30, 1);
-  const GaussianFieldOptions options{0.6, 0.7, 1e-6};
-  const ScalarGrid grid = gaussian_field(molecule, options);
+  const GaussianGridOptions options{0.6, 0.7, 1e-6};
+  const ScalarGrid grid = gaussian_grid(molecule, options);
   const double bound = options.least_term * 30;
   for (std::size_t k = 0; k < grid.size[2]; ++k) {
     for (std::size_t j = 0; j < grid.size[1]; ++j) {
@@ -54,8 +54,8 @@ TEST(GaussianField, IsTheSumOfTheKernelsUpToTheTermsLeftOut) {
   }
 }
 
-TEST(GaussianField, IsZeroOnTheOutermostNodes) {
-  const ScalarGrid grid = gaussian_field(random_molecule(10, 2), {0.6, 0.5, 1e-6});
+TEST(GaussianGrid, IsZeroOnTheOutermostNodes) {
+  const ScalarGrid grid = gaussian_grid(random_molecule(10, 2), {0.6, 0.5, 1e-6});
   for (std::size_t k = 0; k < grid.size[2]; ++k) {
     for (std::size_t j = 0; j < grid.size[1]; ++j) {
       for (std::size_t i = 0; i < grid.size[0]; ++i) {
@@ -68,14 +68,14 @@ TEST(GaussianField, IsZeroOnTheOutermostNodes) {
   }
 }
 
-TEST(GaussianField, IsSampledOnAGridCoarserThanTheMolecule) {
-  const ScalarGrid grid = gaussian_field(molecule_of({{0, 0, 0}}, {1}), {0.6, 50, 1e-6});
+TEST(GaussianGrid, IsSampledOnAGridCoarserThanTheMolecule) {
+  const ScalarGrid grid = gaussian_grid(molecule_of({{0, 0, 0}}, {1}), {0.6, 50, 1e-6});
   EXPECT_EQ(grid.node_count(), grid.values.size());
   EXPECT_GE(*std::min_element(grid.size.begin(), grid.size.end()), 3U);
 }
 
-TEST(GaussianField, RefusesMoleculesItCannotSample) {
-  const auto sample = [](const Molecule& molecule) { return [&molecule] { gaussian_field(molecule, {}); }; };
+TEST(GaussianGrid, RefusesMoleculesItCannotSample) {
+  const auto sample = [](const Molecule& molecule) { return [&molecule] { gaussian_grid(molecule, {}); }; };
   const Molecule empty;
   EXPECT_THAT(sample(empty), ThrowsMessage<InvalidInput>(HasSubstr("no atoms")));
   const Molecule negative = molecule_of({{0, 0, 0}, {1, 0, 0}}, {1, -1.5});
@@ -90,26 +90,26 @@ TEST(GaussianField, RefusesMoleculesItCannotSample) {
   EXPECT_THAT(sample(unequal), ThrowsMessage<InvalidInput>(HasSubstr("1 atoms and 0 radii")));
 }
 
-TEST(GaussianField, RefusesAGridThatIsTooLargeAndStatesItsSize) {
+TEST(GaussianGrid, RefusesAGridThatIsTooLargeAndStatesItsSize) {
   const Molecule far_apart = molecule_of({{0, 0, 0}, {1e6, 1e6, 1e6}}, {1, 1});
   EXPECT_THAT(
       [&] {
-        gaussian_field(far_apart, {0.6, 1, 1e-6});
+        gaussian_grid(far_apart, {0.6, 1, 1e-6});
       },
       ThrowsMessage<InvalidInput>(HasSubstr("1000013 x 1000013 x 1000013 nodes")));
 }
 
-TEST(GaussianField, RefusesOptionsOutOfRange) {
+TEST(GaussianGrid, RefusesOptionsOutOfRange) {
   const Molecule molecule = molecule_of({{0, 0, 0}}, {1});
   for (const double bad : {0.0, -1.0, kInfinity, std::nan("")}) {
-    EXPECT_THROW(gaussian_field(molecule, {bad, 1, 1e-6}), InvalidOption);
-    EXPECT_THROW(gaussian_field(molecule, {0.6, bad, 1e-6}), InvalidOption);
-    EXPECT_THROW(gaussian_field(molecule, {0.6, 1, bad}), InvalidOption);
+    EXPECT_THROW(gaussian_grid(molecule, {bad, 1, 1e-6}), InvalidOption);
+    EXPECT_THROW(gaussian_grid(molecule, {0.6, bad, 1e-6}), InvalidOption);
+    EXPECT_THROW(gaussian_grid(molecule, {0.6, 1, bad}), InvalidOption);
   }
 }
 
-TEST(GaussianField, StopsWhenTheCallbackSaysSo) {
-  EXPECT_THROW(gaussian_field(molecule_of({{0, 0, 0}}, {1}), {}, [](auto, double) { return false; }), Cancelled);
+TEST(GaussianGrid, StopsWhenTheCallbackSaysSo) {
+  EXPECT_THROW(gaussian_grid(molecule_of({{0, 0, 0}}, {1}), {}, [](auto, double) { return false; }), Cancelled);
 }
 
 }  // namespace
