@@ -1,20 +1,9 @@
 #include "smopt/surface/cell_loops.h"
 
-#include <cmath>
-
 namespace smopt {
 namespace {
 
 constexpr std::uint8_t kNone = 0xff;
-
-/// Whether a·b >= c·d, exactly: a rounded product is monotonic, so only equal rounded products need their errors (short of
-/// underflow).
-bool product_not_less(double a, double b, double c, double d) {
-  const double ab = a * b;
-  const double cd = c * d;
-  if (ab != cd) return ab > cd;
-  return std::fma(a, b, -ab) >= std::fma(c, d, -cd);
-}
 
 /// Sorts the pieces of the level set on the cube's faces into loops.
 class LoopTracer {
@@ -30,18 +19,6 @@ class LoopTracer {
   }
 
  private:
-  [[nodiscard]] bool inside(int corner) const { return is_inside(values_[corner]); }
-
-  [[nodiscard]] bool is_ambiguous(const std::array<int, 4>& q) const {
-    return inside(q[0]) != inside(q[1]) && inside(q[0]) == inside(q[2]) && inside(q[1]) == inside(q[3]);
-  }
-
-  /// The saddle's value is (v0·v2 − v1·v3) / (v0 + v2 − v1 − v3); the denominator is positive when corners 0 and 2 are inside.
-  [[nodiscard]] bool inside_is_joined(const std::array<int, 4>& q) const {
-    const int first = inside(q[0]) ? 0 : 1;
-    return product_not_less(values_[q[first]], values_[q[first + 2]], values_[q[1 - first]], values_[q[3 - first]]);
-  }
-
   void link_crossings(int face) {
     static constexpr auto kCorners = [] {
       std::array<std::array<int, 4>, cube::kFaces> corners{};
@@ -49,24 +26,16 @@ class LoopTracer {
       return corners;
     }();
     const std::array<int, 4>& q = kCorners[face];
-    bool joined = false;
-    if (is_ambiguous(q)) {
-      joined = inside_is_joined(q);
-      loops_.ambiguous_faces |= 1U << face;
-      if (joined) loops_.joined_faces |= 1U << face;
-    }
+    const FaceLinks links = link_face({values_[q[0]], values_[q[1]], values_[q[2]], values_[q[3]]});
+    loops_.ambiguous_faces |= unsigned{links.is_ambiguous} << face;
+    loops_.joined_faces |= unsigned{links.is_joined} << face;
     for (int i = 0; i < 4; ++i) {
-      if (!inside(q[i]) && inside(q[(i + 1) % 4])) link_entry(q, i, joined);
+      if (links.exit_of[i] != FaceLinks::kNone) next_[edge_of_side(q, i)] = edge_of_side(q, links.exit_of[i]);
     }
   }
 
-  /// Side i of the face enters the inside: the piece that starts there ends where the inside is left again, or, around an outside
-  /// corner, at the side before.
-  void link_entry(const std::array<int, 4>& q, int i, bool joined) {
-    int j = (i + 1) % 4;
-    while (inside(q[(j + 1) % 4])) j = (j + 1) % 4;
-    if (joined) j = (i + 3) % 4;
-    next_[cube::edge_between(q[i], q[(i + 1) % 4])] = static_cast<std::uint8_t>(cube::edge_between(q[j], q[(j + 1) % 4]));
+  static std::uint8_t edge_of_side(const std::array<int, 4>& q, int side) {
+    return static_cast<std::uint8_t>(cube::edge_between(q[side], q[(side + 1) % 4]));
   }
 
   void follow_loop(int edge) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "smopt/surface/cube.h"
+#include "smopt/surface/face_links.h"
 
 namespace smopt {
 
@@ -24,14 +25,7 @@ struct CellLoops {
   }
 };
 
-/// Whether a corner's value counts as inside: the level itself does.
-inline bool is_inside(double value) {
-  return value >= 0;
-}
-
-/// Traces the level set of zero around the cube. On a face whose corners alternate in sign the asymptotic decider (Nielson & Hamann
-/// 1991) says which corners belong together: the inside ones when the saddle's value is not negative. The comparison is exact, and
-/// the same from both cubes that share the face.
+/// Traces the level set of zero around the cube, face by face as `link_face` says.
 /// \param values  field minus isovalue at the corners, finite; a corner is inside where its value is not negative.
 CellLoops trace_cell_loops(const cube::CornerValues& values);
 
