@@ -161,6 +161,38 @@ void GaussianField::for_atoms_near(const Vec3& low, const Vec3& high, const Visi
   }
 }
 
+std::vector<std::array<std::int32_t, 3>> GaussianField::reached_cubes(const Vec3& origin, double edge) const {
+  const auto place = [&](double x, int axis) {
+    const double at = std::floor((x - origin[axis]) / edge);
+    if (!(std::abs(at) < std::numeric_limits<std::int32_t>::max()))
+      throw InvalidInput(fmt::format("the molecule is too large for blocks of {:.3g} Å: {:.6g} Å", edge, (high_ - low_).maxCoeff()));
+    return static_cast<std::int32_t>(at);
+  };
+  std::vector<std::array<std::int32_t, 3>> cubes;  // z, y, x while they are sorted
+  std::array<std::int32_t, 3> previous_first{};
+  std::array<std::int32_t, 3> previous_last{};
+  for (const Atom& atom : atoms_) {
+    std::array<std::int32_t, 3> first{};
+    std::array<std::int32_t, 3> last{};
+    for (int axis = 0; axis < 3; ++axis) {
+      first[axis] = place(atom.center[axis] - kReachMargin * atom.reach, axis);
+      last[axis] = place(atom.center[axis] + kReachMargin * atom.reach, axis);
+    }
+    if (!cubes.empty() && first == previous_first && last == previous_last) continue;  // atoms come in spatial order
+    previous_first = first;
+    previous_last = last;
+    for (std::int32_t k = first[2]; k <= last[2]; ++k) {
+      for (std::int32_t j = first[1]; j <= last[1]; ++j) {
+        for (std::int32_t i = first[0]; i <= last[0]; ++i) cubes.push_back({k, j, i});
+      }
+    }
+  }
+  std::sort(cubes.begin(), cubes.end());
+  cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+  for (auto& cube : cubes) std::swap(cube[0], cube[2]);
+  return cubes;
+}
+
 bool GaussianField::reaches(const Vec3& low, const Vec3& high) const {
   bool found = false;
   for_atoms_near(low, high, [&](const Atom&) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,12 @@ class GaussianField {
   /// The box outside of which φ is zero.
   [[nodiscard]] const Vec3& low() const { return low_; }
   [[nodiscard]] const Vec3& high() const { return high_; }
+
+  /// The cubes of a grid of cubes that some kernel reaches, in the order z, y, x: cube (i, j, k) spans origin + edge·(i, j, k) to
+  /// origin + edge·(i + 1, j + 1, k + 1).
+  /// \throws InvalidInput when their numbers do not fit 32 bits.
+  /// Cost: O(b·log b) for b pairs of an atom and a cube that it reaches.
+  [[nodiscard]] std::vector<std::array<std::int32_t, 3>> reached_cubes(const Vec3& origin, double edge) const;
 
   /// Whether φ may be other than zero somewhere in the closed box.
   [[nodiscard]] bool reaches(const Vec3& low, const Vec3& high) const;
