@@ -20,9 +20,6 @@ constexpr double kLargestExponent = 300;
 constexpr int kPlaceBits = 21;
 constexpr std::int64_t kMostPlaces = std::int64_t{1} << kPlaceBits;
 
-/// A kernel is looked for a little beyond its reach, so that rounding hides none.
-constexpr double kReachMargin = 1 + 1e-9;
-
 void check_options(const GaussianFieldOptions& options) {
   if (!(std::isfinite(options.decay) && options.decay > 0))
     throw InvalidOption(fmt::format("decay must be positive and finite, not {}", options.decay));
@@ -49,8 +46,12 @@ void check_molecule(const Molecule& molecule, double decay) {
   }
 }
 
-double squared_distance_to_box(const Vec3& x, const Vec3& low, const Vec3& high) {
-  return (x - x.cwiseMax(low).cwiseMin(high)).squaredNorm();
+/// Widens a reach by more than its rounding, so that a block never misses an atom that another block with the same node has.
+constexpr double kReachMargin = 1 + 1e-9;
+
+/// Whether the cube of half edge `reach` around the centre meets the box.
+bool cube_meets_box(const Vec3& center, double reach, const Vec3& low, const Vec3& high) {
+  return ((center.array() - reach <= high.array()) && (low.array() <= center.array() + reach)).all();
 }
 
 /// One kernel on one axis: exp(-d·(x - center)²) at the nodes from `first` on.
@@ -146,10 +147,10 @@ std::uint64_t GaussianField::bin_of(const std::array<std::int64_t, 3>& at) const
   return static_cast<std::uint64_t>((at[2] << (2 * kPlaceBits)) | (at[1] << kPlaceBits) | at[0]);
 }
 
-/// Visits the atoms whose kernel reaches the box, in the order of `atoms_`; `visit` returns whether to go on.
+/// Visits the atoms whose cube of half edge `reach` meets the box, in the order of `atoms_`; `visit` returns whether to go on.
 template <class Visit>
 void GaussianField::for_atoms_near(const Vec3& low, const Vec3& high, const Visit& visit) const {
-  const Vec3 around = Vec3::Constant(largest_reach_);
+  const Vec3 around = Vec3::Constant(kReachMargin * largest_reach_);
   const auto first = place_of(low - around);
   const auto last = place_of(high + around);
   for (std::int64_t k = first[2]; k <= last[2]; ++k) {
@@ -158,7 +159,7 @@ void GaussianField::for_atoms_near(const Vec3& low, const Vec3& high, const Visi
       const std::uint64_t last_bin = bin_of({last[0], j, k});
       for (auto i = static_cast<std::size_t>(begin); i < atoms_.size() && bins_[i] <= last_bin; ++i) {
         const Atom& atom = atoms_[i];
-        if (squared_distance_to_box(atom.center, low, high) <= atom.reach * atom.reach && !visit(atom)) return;
+        if (cube_meets_box(atom.center, kReachMargin * atom.reach, low, high) && !visit(atom)) return;
       }
     }
   }
@@ -208,7 +209,8 @@ bool GaussianField::reaches(const Vec3& low, const Vec3& high) const {
 double GaussianField::value(const Vec3& x) const {
   double sum = 0;
   for_atoms_near(x, x, [&](const Atom& atom) {
-    sum += atom.amplitude * std::exp(-decay_ * (x - atom.center).squaredNorm());
+    const double squared_distance = (x - atom.center).squaredNorm();
+    if (squared_distance <= atom.reach * atom.reach) sum += atom.amplitude * std::exp(-decay_ * squared_distance);
     return true;
   });
   return sum;
@@ -218,6 +220,7 @@ FieldJet GaussianField::jet(const Vec3& x) const {
   FieldJet jet;
   for_atoms_near(x, x, [&](const Atom& atom) {
     const Vec3 away = x - atom.center;
+    if (away.squaredNorm() > atom.reach * atom.reach) return true;
     const double term = atom.amplitude * std::exp(-decay_ * away.squaredNorm());
     jet.value += term;
     jet.gradient += term * away;
