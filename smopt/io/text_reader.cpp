@@ -21,13 +21,6 @@ bool is_blank(char c) {
 /// Longest piece of a file that a message quotes.
 constexpr std::size_t kQuoted = 40;
 
-/// A field as a message shows it: what is not printable ASCII is a question mark.
-std::string quoted(std::string_view text) {
-  std::string shown = "\"";
-  for (const char c : text.substr(0, kQuoted)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + (text.size() > kQuoted ? "…\"" : "\"");
-}
-
 /// std::from_chars calls numbers too small for a double out of range as it does those too large; the former are (nearly) zero.
 bool parse_tiny(std::string_view text, double& value) {
   value = std::strtod(std::string(text).c_str(), nullptr);
@@ -35,6 +28,12 @@ bool parse_tiny(std::string_view text, double& value) {
 }
 
 }  // namespace
+
+std::string quoted(std::string_view text) {
+  std::string shown = "\"";
+  for (const char c : text.substr(0, kQuoted)) shown += c >= ' ' && c <= '~' ? c : '?';
+  return shown + (text.size() > kQuoted ? "…\"" : "\"");
+}
 
 bool parse_number(std::string_view text, double& value) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

@@ -66,4 +66,7 @@ class TextReader {
 bool parse_number(std::string_view text, double& value);
 bool parse_integer(std::string_view text, std::int64_t& value);
 
+/// A piece of a file as a message shows it: in quotation marks, cut where it is long, a question mark for what is not printable ASCII.
+std::string quoted(std::string_view text);
+
 }  // namespace smopt

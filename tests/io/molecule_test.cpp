@@ -98,7 +98,7 @@ TEST(Molecule, RejectsAMissingFile) {
 TEST(Molecule, RejectsAnotherFormat) {
   const TemporaryFolder folder;
   EXPECT_EQ(rejection(folder.path(), [&] { read_molecule(folder.path() / "a.off"); }),
-            "a.off: not a molecule format by its name; known are pqr (each also .gz)");
+            "a.off: not a molecule format by its name; known are pqr, pdb, ent, cif, mmcif, xyzr (each also .gz)");
 }
 
 TEST(Molecule, RejectsAFileWithoutAtoms) {
@@ -132,6 +132,38 @@ TEST(Molecule, NeverTakesAnotherFieldForAMissingOne) {
   EXPECT_EQ(pqr_rejection("ATOM\n"), message);
   // A PDB file under another name: occupancy and temperature factor are followed by the element.
   EXPECT_NE(pqr_rejection("ATOM      1  N   GLY A   4     -36.576 -12.088 -13.641  1.00 20.00           N  \n"), "");
+}
+
+TEST(Molecule, RejectsFilesThatAreNoText) {
+  const auto refused = [](const std::string& name, const std::string& content) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder.file(name, content);
+    return rejection(folder.path(), [&] { read_molecule(path); });
+  };
+  for (const std::string ending : {"pqr", "pdb", "cif", "xyzr"}) {
+    const std::string name = "a." + ending;
+    EXPECT_EQ(refused(name, std::string("\x89PNG\r\n\x1a\n\0\0\0", 11)), name + ": not a molecule: the file is a PNG image");
+    EXPECT_EQ(refused(name, "<!DOCTYPE html>\n<html>ATOM</html>\n"), name + ": not a molecule: the file is HTML or XML");
+    EXPECT_EQ(refused(name, "OFF\n3 1 0\n"), name + ": not a molecule: the file is an OFF mesh");
+    EXPECT_EQ(refused(name, std::string("\x7f"
+                                        "ELF\0\0",
+                                        6)),
+              name + ": not a molecule: the file is binary");
+  }
+  EXPECT_EQ(refused("a.pdb", "data_1ABC\n"), "a.pdb: the file is mmCIF, not pdb; name it .cif");
+}
+
+TEST(Molecule, WarnsOfRadiiThatNoAtomHas) {
+  const auto notes_of = [](std::string_view line) {
+    const TemporaryFolder folder;
+    MoleculeReadReport report;
+    read_molecule(folder.file("a.pqr", line), {}, &report);
+    return report.notes;
+  };
+  // A PDB file without elements under the name of a PQR: occupancy and temperature factor are where charge and radius should be.
+  EXPECT_THAT(notes_of("ATOM      1  N   GLY A   4     -36.576 -12.088 -13.641  1.00 20.00\n"),
+              ElementsAre("the largest radius is 20 Å, more than any atom's: is this a PDB file with temperature factors?"));
+  EXPECT_THAT(notes_of("ATOM      1  N   GLY A   4     -36.576 -12.088 -13.641  1.00 3.48\n"), IsEmpty());
 }
 
 /// Number of atom lines and sum of charges of a well-behaved file, by nothing but streams.
