@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "smopt/surface/cube.h"
+#include "smopt/surface/place_map.h"
+
+namespace smopt {
+
+/// Where a cube of an adaptive partition is: cubes of level l have the edge h / 2^l, and cube `at` spans at … at + 1 in units of it.
+struct CellPlace {
+  std::array<std::int32_t, 3> at{};
+  int level = 0;
+
+  [[nodiscard]] CellPlace child(int corner) const {
+    return {{2 * at[0] + (corner & 1), 2 * at[1] + (corner >> 1 & 1), 2 * at[2] + (corner >> 2)}, level + 1};
+  }
+};
+
+/// The cubes of an adaptive partition: roots of level 0, kept where there is something to say about them, each the top of an octree.
+class CellForest {
+ public:
+  using Id = std::int32_t;
+  static constexpr Id kNone = -1;
+
+  struct Cell {
+    CellPlace place;
+    float error = 0;              ///< largest |φ − interpolant| in the cell, estimated
+    float slope = 0;              ///< least |∇φ| in the cell, estimated, 1/Å; 0 where φ may be flat
+    cube::CornerValues values{};  ///< φ − c at the corners
+    bool may_be_crossed = false;  ///< φ = c may pass through the cell
+  };
+
+  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
+  [[nodiscard]] const Cell& cell(Id id) const { return cells_[id]; }
+  [[nodiscard]] bool is_leaf(Id id) const { return first_child_[id] == kNone; }
+  /// Of the eight children, which follow each other in the order of the cube's corners.
+  [[nodiscard]] Id first_child(Id id) const { return first_child_[id]; }
+  /// The cell at this place, or the leaf it would lie in; kNone where no root is kept.
+  [[nodiscard]] Id find(const CellPlace& place) const;
+
+  /// \pre there is no such root; its level is 0.
+  void add_root(const Cell& cell);
+  /// \pre the cell is a leaf; the children are at its eight parts.
+  void add_children(Id parent, const std::array<Cell, cube::kCorners>& children);
+
+ private:
+  std::vector<Cell> cells_;
+  std::vector<Id> first_child_;  ///< apart from the cells: the way down a tree touches nothing else
+  PlaceMap<3> roots_;
+};
+
+}  // namespace smopt
