@@ -23,8 +23,8 @@ struct AtomSite {
   std::string_view insertion;  ///< tells residues of the same number apart
 };
 
-/// The molecule of these atoms: water and all but one of alternate locations left out, radii by element, charges 0. What was assumed and left out
-/// is added to the notes.
+/// The molecule of these atoms: water and all but one of alternate locations left out, radii by element, charges 0. What was assumed and
+/// left out is added to the notes.
 /// \param name  how messages call the file. \throws InvalidInput "name:line: …" for an element the radius set has no radius for; also when
 /// nothing but water is there. Cost: O(atoms).
 Molecule molecule_of(std::vector<AtomSite> sites, const std::string& name, const MoleculeReadOptions& options, MoleculeReadReport& report);

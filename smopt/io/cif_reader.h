@@ -26,8 +26,9 @@ struct CifToken {
   [[nodiscard]] bool is_null() const { return !is_quoted && (text == "." || text == "?"); }
 };
 
-/// Cuts a CIF (version 1.1: Hall, Allen, Brown 1991; IUCr, "CIF syntax") into tokens without copying it: words, texts in single or double quotes
-/// (which end at a quote before a blank), text fields between lines that begin with a semicolon, comments passed over. Cost: O(bytes).
+/// Cuts a CIF (version 1.1: Hall, Allen, Brown 1991; IUCr, "CIF syntax") into tokens without copying it: words, texts in single or double
+/// quotes (which end at a quote before a blank), text fields between lines that begin with a semicolon, comments passed over. Cost:
+/// O(bytes).
 class CifReader {
  public:
   /// \param text  stays the caller's and must outlive the reader and its tokens.

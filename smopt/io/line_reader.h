@@ -8,8 +8,8 @@ namespace smopt {
 
 /// Walks through a text in memory line by line, as its lines stand (columns, blanks and all); complaints name the file and the line.
 ///
-/// For formats in columns, and for those that pass over most lines; what is fields between blanks is `TextReader`'s. Cost: O(bytes), nothing
-/// is copied.
+/// For formats in columns, and for those that pass over most lines; what is fields between blanks is `TextReader`'s. Cost: O(bytes),
+/// nothing is copied.
 class LineReader {
  public:
   /// \param text  stays the caller's and must outlive the reader.

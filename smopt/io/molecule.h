@@ -30,8 +30,8 @@ struct MoleculeReadReport {
   std::vector<std::string> notes;
 };
 
-/// Reads a molecule; the format follows from the name: `.pqr`, `.pdb` or `.ent`, `.cif` or `.mmcif`, `.xyzr`, each with or without `.gz`; `-` is
-/// PQR from standard input.
+/// Reads a molecule; the format follows from the name: `.pqr`, `.pdb` or `.ent`, `.cif` or `.mmcif`, `.xyzr`, each with or without `.gz`;
+/// `-` is PQR from standard input.
 /// \param report  filled when given.
 /// \throws InvalidInput naming the file and the line. Cost: O(bytes); 0.1 s for the PQR of a ribosome's 240 000 atoms.
 Molecule read_molecule(const std::filesystem::path& path, const MoleculeReadOptions& options = {}, MoleculeReadReport* report = nullptr);

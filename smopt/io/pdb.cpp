@@ -34,7 +34,8 @@ constexpr Columns kElement = {77, 78};
 
 constexpr std::array<std::string_view, 3> kCoordinateNames = {"coordinate x", "coordinate y", "coordinate z"};
 
-/// Residues whose atoms' elements are the first letters of their names: amino acids with the names of their protonation states, nucleotides.
+/// Residues whose atoms' elements are the first letters of their names: amino acids with the names of their protonation states,
+/// nucleotides.
 constexpr std::array<std::string_view, 47> kStandardResidues = {
     "ALA", "ARG", "ASN", "ASP", "CYS", "GLN", "GLU", "GLY", "HIS", "ILE", "LEU", "LYS", "MET", "PHE", "PRO", "SER",
     "THR", "TRP", "TYR", "VAL", "ASH", "CYM", "CYX", "GLH", "HID", "HIE", "HIP", "HSD", "HSE", "HSP", "LYN", "A",

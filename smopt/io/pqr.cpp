@@ -74,8 +74,8 @@ std::optional<Numbers> last_numbers(const Fields& fields) {
   return numbers;
 }
 
-/// Appends the three coordinates' columns; false when the line is too short, or when their decimal points are not below one another as the format
-/// has them (8.3): then the line is not in columns, and numbers would be cut in the wrong place.
+/// Appends the three coordinates' columns; false when the line is too short, or when their decimal points are not below one another as the
+/// format has them (8.3): then the line is not in columns, and numbers would be cut in the wrong place.
 bool append_coordinate_columns(std::string_view line, Fields& fields) {
   if (line.size() <= kBehindCoordinates) return false;
   const std::size_t point = line.substr(kFirstCoordinateColumn, kCoordinateWidth).find('.');

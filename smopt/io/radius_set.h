@@ -8,13 +8,13 @@ namespace smopt {
 
 /// Where radii come from when a file has none: one number an element, so approximate.
 enum class RadiusSet {
-  /// Van der Waals radii: A. Bondi, J. Phys. Chem. 68, 441 (1964). Main-group elements without one: M. Mantina et al., J. Phys. Chem. A 113, 5806
-  /// (2009), made to fit Bondi's. Metals that neither has (iron, manganese, …): the crystallographic radii of S. S. Batsanov, Inorg. Mater. 37, 871
-  /// (2001). Hydrogen is Bondi's 1.20.
+  /// Van der Waals radii: A. Bondi, J. Phys. Chem. 68, 441 (1964). Main-group elements without one: M. Mantina et al., J. Phys. Chem. A
+  /// 113, 5806 (2009), made to fit Bondi's. Metals that neither has (iron, manganese, …): the crystallographic radii of S. S. Batsanov,
+  /// Inorg. Mater. 37, 871 (2001). Hydrogen is Bondi's 1.20.
   bondi,
-  /// R* (half the distance of the minimum) of AMBER's parm99, which ff14SB keeps: J. Wang, P. Cieplak, P. A. Kollman, J. Comput. Chem. 21, 1049
-  /// (2000). There it goes by atom type; here an element has the value of the type that is most frequent in proteins: H 1.487 (HC; the polar ones'
-  /// 0.6 and 0 would need the bonds), O 1.6612 (O, O2; hydroxyl has 1.721). PDB2PQR gives the exact ones.
+  /// R* (half the distance of the minimum) of AMBER's parm99, which ff14SB keeps: J. Wang, P. Cieplak, P. A. Kollman, J. Comput. Chem. 21,
+  /// 1049 (2000). There it goes by atom type; here an element has the value of the type that is most frequent in proteins: H 1.487 (HC; the
+  /// polar ones' 0.6 and 0 would need the bonds), O 1.6612 (O, O2; hydroxyl has 1.721). PDB2PQR gives the exact ones.
   amber,
 };
 

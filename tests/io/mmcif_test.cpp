@@ -110,6 +110,11 @@ TEST(Mmcif, RejectsCoordinatesThatAreNoFiniteNumbers) {
   EXPECT_EQ(molecule_rejection("a.cif", "data_A\n" + loop_of("C\n\nnan 2 3\n")), "a.cif:9: Cartn_x is nan, expected a finite number");
 }
 
+TEST(Mmcif, CountsTheLinesOfTextFields) {
+  EXPECT_EQ(molecule_rejection("a.cif", "data_A\n_a.b\n;one\ntwo\n\n;\n# seven\n" + loop_of("C 1 2 x\n")),
+            "a.cif:13: Cartn_z is \"x\", expected a number");
+}
+
 TEST(Mmcif, RejectsAnElementWithoutARadius) {
   EXPECT_EQ(molecule_rejection("a.cif", "data_A\n" + loop_of("C 1 2 3\nXx 1 2 3\n")), "a.cif:8: \"Xx\" is not an element");
   EXPECT_EQ(molecule_rejection("a.cif", "data_A\n" + loop_of("? 1 2 3\n")), "a.cif:7: the element of atom \"\" is missing");
