@@ -195,7 +195,7 @@ class Partitioner {
   void examine(Id id, Wishes& wishes) const {
     const Cell& cell = forest_.cell(id);
     if (!cell.may_be_crossed && cell.place.level == 0) return;
-    if (!is_fine_enough(cell, 0)) {
+    if (!is_fine_enough(cell)) {
       wishes.divide_for_error.push_back(id);
       return;
     }
@@ -210,21 +210,26 @@ class Partitioner {
       wishes.divide_for_topology.push_back(id);
   }
 
-  /// Whether the surface in the cell is near enough to φ = c when the values at its corners are off by `hanging_error`.
-  [[nodiscard]] bool is_fine_enough(const Cell& cell, double hanging_error) const {
-    if (!cell.may_be_crossed || cell.place.level == lattice_.finest_level) return true;
+  /// Whether the surface in the cell is near enough to φ = c.
+  [[nodiscard]] bool is_fine_enough(const Cell& cell) const {
+    return !cell.may_be_crossed || cell.place.level == lattice_.finest_level || is_near_by_slope(cell, 0);
+  }
+
+  [[nodiscard]] bool is_near_by_slope(const Cell& cell, double hanging_error) const {
     return cell.slope > 0 && cell.error + hanging_error <= error_ * cell.slope;
   }
 
+  /// The values of a cell that is near enough by its slope may be off as long as it stays so; those of one that is near enough by its size
+  /// as long as they keep their signs.
   [[nodiscard]] bool hanging_error_is_too_large(const Cell& cell, const cube::CornerValues& values) const {
     double largest = 0;
-    bool same_signs = true;
+    bool keep_signs = true;
     for (std::size_t i = 0; i < values.size(); ++i) {
       largest = std::max(largest, std::abs(values[i] - cell.values[i]));
-      same_signs = same_signs && is_inside(values[i]) == is_inside(cell.values[i]);
+      keep_signs = keep_signs && is_inside(values[i]) == is_inside(cell.values[i]);
     }
-    const bool is_near_by_slope = cell.slope > 0 && cell.error + largest <= error_ * cell.slope;
-    return !is_near_by_slope && !same_signs;
+    if (is_near_by_slope(cell, largest)) return false;
+    return cell.place.level < lattice_.finest_level || !keep_signs;
   }
 
   /// Asks for the roots that are missing around a cell, and to divide leaves that are larger by more than one level.

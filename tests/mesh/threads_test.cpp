@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 
@@ -10,22 +9,12 @@
 #include "smopt/mesh/rings.h"
 #include "smopt/mesh/validity.h"
 #include "tests/support/shapes.h"
+#include "tests/support/threads.h"
 
 namespace smopt {
 namespace {
 
 using namespace testing;
-
-/// What `stage` gives for 2, 3 and 8 threads is what it gives for one.
-template <class Stage>
-void expect_same_for_any_threads(const Stage& stage) {
-  const auto with_threads = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return stage();
-  };
-  const auto one = with_threads(1);
-  for (const std::size_t threads : {2, 3, 8}) EXPECT_TRUE(with_threads(threads) == one) << threads << " threads";
-}
 
 /// A torus of 80 000 triangles with a hundred shells in and around it, in random order: several tasks for every stage.
 TriangleMesh large_mesh() {
