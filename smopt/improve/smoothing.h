@@ -6,6 +6,7 @@
 
 #include "smopt/geometry/triangle_shape.h"
 #include "smopt/improve/move_guard.h"
+#include "smopt/improve/round_report.h"
 #include "smopt/improve/step_rule.h"
 #include "smopt/mesh/triangle_mesh.h"
 #include "smopt/progress.h"
@@ -32,20 +33,6 @@ struct SmoothingOptions {
   /// was. Not in the paper. Without it, repeated steps draw thin necks of the surface out into needles of hundredths of a degree, which
   /// never leave the active set and which TetGen does not mesh.
   bool keeps_angles = true;
-};
-
-/// Moves of one round or of all.
-struct MoveCounts {
-  std::size_t accepted = 0;   ///< moves made, the shortened ones included
-  std::size_t shortened = 0;  ///< of these, made with a halved step
-  std::size_t refused = 0;    ///< not made, whatever the step
-};
-
-struct RoundReport {
-  std::size_t active = 0;  ///< vertices visited
-  MoveCounts moves;
-  std::size_t stuck = 0;    ///< of the active, passed over: refused before, and no vertex of their ring has moved since
-  double longest_move = 0;  ///< Å
 };
 
 struct SmoothingReport {

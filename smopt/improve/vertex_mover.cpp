@@ -12,12 +12,11 @@ constexpr double kNegligibleStepRel = 1e-7;
 
 }  // namespace
 
-VertexMover::VertexMover(const GuardedSurface& surface, const SmoothingOptions& options, std::unique_ptr<MoveGuard> guard)
-    : surface_(surface),
-      options_(options),
+VertexMover::VertexMover(const GuardedSurface& surface, const MoveRules& rules, std::unique_ptr<MoveGuard> guard)
+    : rules_(rules),
       move_(surface.mesh, surface.rings),
       guard_(std::move(guard)),
-      bad_squared_sine_(std::pow(std::sin(options.thresholds.min_angle_deg * std::numbers::pi / 180), 2)) {}
+      bad_squared_sine_(std::pow(std::sin(rules.min_angle_deg * std::numbers::pi / 180), 2)) {}
 
 Visit VertexMover::visit(VertexId v, const Vec3& step) {
   move_.select(v);
@@ -26,9 +25,9 @@ Visit VertexMover::visit(VertexId v, const Vec3& step) {
   guard_->select(move_, move_.position() + step);
   if (!guard_->is_within_region()) return Visit::postponed;
   double beta = 1;
-  for (int halving = 0; halving <= options_.halvings; ++halving, beta *= 0.5) {
+  for (int halving = 0; halving <= rules_.halvings; ++halving, beta *= 0.5) {
     move_.aim(move_.position() + beta * step);
-    if (options_.keeps_angles && makes_bad_angle_worse()) continue;
+    if (rules_.keeps_angles && makes_bad_angle_worse()) continue;
     if (!guard_->is_ok()) continue;
     if (guard_->must_wait()) return Visit::postponed;
     guard_->apply();

@@ -10,7 +10,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/threads.h"
 #include "tests/surface/adaptive_interpolant.h"
-#include "tests/surface/molecules.h"
+#include "tests/support/molecules.h"
 #include "tests/surface/self_intersections.h"
 #include "tests/surface/subdivided_field.h"
 

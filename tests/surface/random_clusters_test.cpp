@@ -7,7 +7,7 @@
 #include "smopt/surface/adaptive_surface.h"
 #include "smopt/surface/gaussian_surface.h"
 #include "tests/support/matchers.h"
-#include "tests/surface/molecules.h"
+#include "tests/support/molecules.h"
 #include "tests/surface/self_intersections.h"
 
 namespace smopt {

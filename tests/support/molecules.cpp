@@ -1,4 +1,4 @@
-#include "tests/surface/molecules.h"
+#include "tests/support/molecules.h"
 
 #include <random>
 
