@@ -1,14 +1,18 @@
 #include "smopt/surface/gaussian_field.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "smopt/error.h"
+#include "smopt/parallel.h"
+#include "smopt/surface/kernel_adder.h"
 
 namespace smopt {
 namespace {
@@ -16,9 +20,8 @@ namespace {
 /// Largest exponent d·r² of a kernel: exp(300) = 2e130 leaves room for sums and products of two field values in a double.
 constexpr double kLargestExponent = 300;
 
-/// Bits of a bin's place on an axis: 2 097 152 bins of half a reach (some 2.5 Å) are five million ångström.
-constexpr int kPlaceBits = 21;
-constexpr std::int64_t kMostPlaces = std::int64_t{1} << kPlaceBits;
+/// Cubes smaller than the largest reach are looked for in larger ones, of at most so many on an edge.
+constexpr double kMostParts = 1024;
 
 void check_options(const GaussianFieldOptions& options) {
   if (!(std::isfinite(options.decay) && options.decay > 0))
@@ -46,59 +49,81 @@ void check_molecule(const Molecule& molecule, double decay) {
   }
 }
 
-/// Widens a reach by more than its rounding, so that a block never misses an atom that another block with the same node has.
-constexpr double kReachMargin = 1 + 1e-9;
+/// Widens what is compared with a sum by more than the sum's rounding.
+constexpr double kMargin = 1 + 1e-9;
 
-/// Whether the cube of half edge `reach` around the centre meets the box.
-bool cube_meets_box(const Vec3& center, double reach, const Vec3& low, const Vec3& high) {
-  return ((center.array() - reach <= high.array()) && (low.array() <= center.array() + reach)).all();
+double squared_distance_to_box(const Vec3& x, const Vec3& low, const Vec3& high) {
+  return (x - x.cwiseMax(low).cwiseMin(high)).squaredNorm();
 }
 
-/// One kernel on one axis: exp(-d·(x - center)²) at the nodes from `first` on.
-struct Profile {
-  std::size_t first = 0;
-  std::vector<double> values;
-};
+/// Whether the cube of half edge `reach` around the centre meets the box.
+bool cube_meets_box(const Kernel& kernel, const Vec3& low, const Vec3& high) {
+  const double reach = kMargin * kernel.reach;
+  return ((kernel.center.array() - reach <= high.array()) && (low.array() <= kernel.center.array() + reach)).all();
+}
 
-/// Adds kernels to the nodes of a block one after another. Which node gets a kernel depends on the node and the atom alone, not on the block.
-class KernelAdder {
+std::vector<Kernel> kernels_of(const Molecule& molecule, const GaussianFieldOptions& options) {
+  std::vector<Kernel> kernels(molecule.atom_count());
+  const double squared_reach_of_point = -std::log(options.least_term) / options.decay;
+  for_ranges_in_parallel(kernels.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double squared = molecule.radii[i] * molecule.radii[i];
+      kernels[i] = {molecule.centers[i], std::exp(options.decay * squared), std::sqrt(squared + squared_reach_of_point)};
+    }
+  });
+  return kernels;
+}
+
+using Cube = std::array<std::int32_t, 3>;
+
+/// The cubes of a grid that the cubes around the kernels' reaches meet.
+class CubeFinder {
  public:
-  KernelAdder(ScalarGrid& grid, double decay, double least_term) : grid_(grid), decay_(decay), least_term_(least_term) {}
+  CubeFinder(const std::vector<Kernel>& kernels, const Vec3& origin, double edge) : kernels_(kernels), origin_(origin), edge_(edge) {}
 
-  void add(const Vec3& center, double amplitude, double reach) {
-    for (int axis = 0; axis < 3; ++axis) sample_profile(axis, center[axis], reach, profiles_[axis]);
-    const auto& [x, y, z] = profiles_;
-    if (x.values.empty()) return;
-    for (std::size_t k = 0; k < z.values.size(); ++k) {
-      for (std::size_t j = 0; j < y.values.size(); ++j) {
-        const double factor = amplitude * z.values[k] * y.values[j];
-        if (factor >= least_term_) add_row(x, factor, &grid_.values[grid_.index(x.first, y.first + j, z.first + k)]);
+  /// In the order z, y, x.
+  [[nodiscard]] std::vector<Cube> all() const {
+    std::vector<Cube> cubes;
+    Cube first{};
+    Cube last{};
+    for (const Kernel& kernel : kernels_) {
+      const Cube previous_first = std::exchange(first, place_of(kernel, -1));
+      const Cube previous_last = std::exchange(last, place_of(kernel, 1));
+      const bool has_changed = cubes.empty() || first != previous_first || last != previous_last;
+      if (has_changed) append_box(first, last, cubes);  // kernels come in spatial order
+    }
+    sort_zyx(cubes);
+    return cubes;
+  }
+
+  static void append_box(const Cube& first, const Cube& last, std::vector<Cube>& cubes) {
+    for (std::int32_t k = first[2]; k <= last[2]; ++k) {
+      for (std::int32_t j = first[1]; j <= last[1]; ++j) {
+        for (std::int32_t i = first[0]; i <= last[0]; ++i) cubes.push_back({i, j, k});
       }
     }
   }
 
+  /// Each once.
+  static void sort_zyx(std::vector<Cube>& cubes) {
+    tbb::parallel_sort(cubes.begin(), cubes.end(),
+                       [](const Cube& a, const Cube& b) { return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]); });
+    cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+  }
+
  private:
-  void sample_profile(int axis, double center, double reach, Profile& profile) const {
-    const double offset = grid_.first[axis];
-    const double first = std::max(0.0, std::ceil((center - reach - grid_.origin[axis]) / grid_.spacing) - offset);
-    const double last = std::min(grid_.size[axis] - 1.0, std::floor((center + reach - grid_.origin[axis]) / grid_.spacing) - offset);
-    profile.values.clear();
-    if (!(first <= last)) return;
-    profile.first = static_cast<std::size_t>(first);
-    for (std::size_t i = profile.first; i <= static_cast<std::size_t>(last); ++i) {
-      const double distance = grid_.coordinate(axis, i) - center;
-      profile.values.push_back(std::exp(-decay_ * distance * distance));
+  [[nodiscard]] Cube place_of(const Kernel& kernel, int side) const {
+    Cube place{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = kernel.center[axis] + side * kMargin * kernel.reach;
+      place[axis] = static_cast<std::int32_t>(std::floor((x - origin_[axis]) / edge_));
     }
+    return place;
   }
 
-  static void add_row(const Profile& x, double factor, double* row) {
-    for (std::size_t i = 0; i < x.values.size(); ++i) row[i] += factor * x.values[i];
-  }
-
-  ScalarGrid& grid_;
-  double decay_;
-  double least_term_;
-  std::array<Profile, 3> profiles_;
+  const std::vector<Kernel>& kernels_;
+  const Vec3& origin_;
+  double edge_;
 };
 
 }  // namespace
@@ -107,110 +132,62 @@ GaussianField::GaussianField(const Molecule& molecule, const GaussianFieldOption
     : decay_(options.decay), least_term_(options.least_term) {
   check_options(options);
   check_molecule(molecule, options.decay);
-  const std::size_t n = molecule.atom_count();
-  std::vector<Atom> atoms(n);
+  kernels_ = KernelRows(kernels_of(molecule, options));
   low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
   high_ = -low_;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double squared = molecule.radii[i] * molecule.radii[i];
-    const double reach = std::sqrt(squared - std::log(least_term_) / decay_);
-    atoms[i] = {molecule.centers[i], std::exp(decay_ * squared), reach};
-    low_ = low_.cwiseMin(atoms[i].center - Vec3::Constant(reach));
-    high_ = high_.cwiseMax(atoms[i].center + Vec3::Constant(reach));
-    largest_reach_ = std::max(largest_reach_, reach);
-  }
-  bin_edge_ = std::max(0.5 * largest_reach_, (high_ - low_).maxCoeff() / static_cast<double>(kMostPlaces - 1));
-
-  std::vector<std::uint64_t> bin(n);
-  for (std::size_t i = 0; i < n; ++i) bin[i] = bin_of(place_of(atoms[i].center));
-  std::vector<std::uint32_t> order(n);
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return bin[a] < bin[b]; });
-  atoms_.reserve(n);
-  bins_.reserve(n);
-  for (const std::uint32_t i : order) {
-    atoms_.push_back(atoms[i]);
-    bins_.push_back(bin[i]);
+  for (const Kernel& kernel : kernels()) {
+    low_ = low_.cwiseMin(kernel.center - Vec3::Constant(kernel.reach));
+    high_ = high_.cwiseMax(kernel.center + Vec3::Constant(kernel.reach));
   }
 }
 
-std::array<std::int64_t, 3> GaussianField::place_of(const Vec3& x) const {
-  std::array<std::int64_t, 3> at{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double place = std::floor((x[axis] - low_[axis]) / bin_edge_);
-    at[axis] = static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(kMostPlaces - 1)));
-  }
-  return at;
-}
+std::vector<Cube> GaussianField::reached_cubes(const Vec3& origin, double edge) const {
+  const Vec3 farthest = (low_ - origin).cwiseAbs().cwiseMax((high_ - origin).cwiseAbs()) / edge;
+  if (!(farthest.maxCoeff() + 2 * kMostParts < std::numeric_limits<std::int32_t>::max()))
+    throw InvalidInput(fmt::format("the molecule is too large for blocks of {:.3g} Å: {:.6g} Å", edge, (high_ - low_).maxCoeff()));
 
-std::uint64_t GaussianField::bin_of(const std::array<std::int64_t, 3>& at) const {
-  return static_cast<std::uint64_t>((at[2] << (2 * kPlaceBits)) | (at[1] << kPlaceBits) | at[0]);
-}
-
-/// Visits the atoms whose cube of half edge `reach` meets the box, in the order of `atoms_`; `visit` returns whether to go on.
-template <class Visit>
-void GaussianField::for_atoms_near(const Vec3& low, const Vec3& high, const Visit& visit) const {
-  const Vec3 around = Vec3::Constant(kReachMargin * largest_reach_);
-  const auto first = place_of(low - around);
-  const auto last = place_of(high + around);
-  for (std::int64_t k = first[2]; k <= last[2]; ++k) {
-    for (std::int64_t j = first[1]; j <= last[1]; ++j) {
-      const auto begin = std::lower_bound(bins_.begin(), bins_.end(), bin_of({first[0], j, k})) - bins_.begin();
-      const std::uint64_t last_bin = bin_of({last[0], j, k});
-      for (auto i = static_cast<std::size_t>(begin); i < atoms_.size() && bins_[i] <= last_bin; ++i) {
-        const Atom& atom = atoms_[i];
-        if (cube_meets_box(atom.center, kReachMargin * atom.reach, low, high) && !visit(atom)) return;
-      }
+  const auto parts = static_cast<std::int32_t>(std::min(kMostParts, std::ceil(kernels_.largest_reach() / edge)));
+  const std::vector<Cube> coarse = CubeFinder(kernels(), origin, parts * edge).all();
+  if (parts == 1) return coarse;
+  std::vector<Cube> cubes;
+  std::vector<Cube> inside;
+  for (const auto& [i, j, k] : coarse) {
+    inside.clear();
+    CubeFinder::append_box({parts * i, parts * j, parts * k}, {parts * i + parts - 1, parts * j + parts - 1, parts * k + parts - 1},
+                           inside);
+    for (const Cube& cube : inside) {
+      const Vec3 low = origin + edge * Vec3(cube[0], cube[1], cube[2]);
+      if (reaches(low, low + Vec3::Constant(edge))) cubes.push_back(cube);
     }
   }
-}
-
-std::vector<std::array<std::int32_t, 3>> GaussianField::reached_cubes(const Vec3& origin, double edge) const {
-  const auto place = [&](double x, int axis) {
-    const double at = std::floor((x - origin[axis]) / edge);
-    if (!(std::abs(at) < std::numeric_limits<std::int32_t>::max()))
-      throw InvalidInput(fmt::format("the molecule is too large for blocks of {:.3g} Å: {:.6g} Å", edge, (high_ - low_).maxCoeff()));
-    return static_cast<std::int32_t>(at);
-  };
-  std::vector<std::array<std::int32_t, 3>> cubes;  // z, y, x while they are sorted
-  std::array<std::int32_t, 3> previous_first{};
-  std::array<std::int32_t, 3> previous_last{};
-  for (const Atom& atom : atoms_) {
-    std::array<std::int32_t, 3> first{};
-    std::array<std::int32_t, 3> last{};
-    for (int axis = 0; axis < 3; ++axis) {
-      first[axis] = place(atom.center[axis] - kReachMargin * atom.reach, axis);
-      last[axis] = place(atom.center[axis] + kReachMargin * atom.reach, axis);
-    }
-    if (!cubes.empty() && first == previous_first && last == previous_last) continue;  // atoms come in spatial order
-    previous_first = first;
-    previous_last = last;
-    for (std::int32_t k = first[2]; k <= last[2]; ++k) {
-      for (std::int32_t j = first[1]; j <= last[1]; ++j) {
-        for (std::int32_t i = first[0]; i <= last[0]; ++i) cubes.push_back({k, j, i});
-      }
-    }
-  }
-  std::sort(cubes.begin(), cubes.end());
-  cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
-  for (auto& cube : cubes) std::swap(cube[0], cube[2]);
+  CubeFinder::sort_zyx(cubes);
   return cubes;
 }
 
 bool GaussianField::reaches(const Vec3& low, const Vec3& high) const {
   bool found = false;
-  for_atoms_near(low, high, [&](const Atom&) {
-    found = true;
-    return false;
+  kernels_.visit_near_box(low, high, [&](const Kernel& kernel) {
+    found = cube_meets_box(kernel, low, high);
+    return !found;
   });
   return found;
 }
 
+bool GaussianField::may_reach(double value, const Vec3& low, const Vec3& high) const {
+  double sum = 0;
+  kernels_.visit_near_box(low, high, [&](const Kernel& kernel) {
+    if (cube_meets_box(kernel, low, high))
+      sum += kMargin * kernel.amplitude * std::exp(-decay_ * squared_distance_to_box(kernel.center, low, high));
+    return sum < value;
+  });
+  return sum >= value;
+}
+
 double GaussianField::value(const Vec3& x) const {
   double sum = 0;
-  for_atoms_near(x, x, [&](const Atom& atom) {
-    const double squared_distance = (x - atom.center).squaredNorm();
-    if (squared_distance <= atom.reach * atom.reach) sum += atom.amplitude * std::exp(-decay_ * squared_distance);
+  kernels_.visit_near_point(x, [&](const Kernel& kernel) {
+    const double squared_distance = (x - kernel.center).squaredNorm();
+    if (squared_distance <= kernel.reach * kernel.reach) sum += kernel.amplitude * std::exp(-decay_ * squared_distance);
     return true;
   });
   return sum;
@@ -218,13 +195,15 @@ double GaussianField::value(const Vec3& x) const {
 
 FieldJet GaussianField::jet(const Vec3& x) const {
   FieldJet jet;
-  for_atoms_near(x, x, [&](const Atom& atom) {
-    const Vec3 away = x - atom.center;
-    if (away.squaredNorm() > atom.reach * atom.reach) return true;
-    const double term = atom.amplitude * std::exp(-decay_ * away.squaredNorm());
+  kernels_.visit_near_point(x, [&](const Kernel& kernel) {
+    const Vec3 away = x - kernel.center;
+    const double squared_distance = away.squaredNorm();
+    if (squared_distance > kernel.reach * kernel.reach) return true;
+    const double term = kernel.amplitude * std::exp(-decay_ * squared_distance);
+    const Vec3 weighted = term * away;
     jet.value += term;
-    jet.gradient += term * away;
-    jet.hessian += term * away * away.transpose();
+    jet.gradient += weighted;
+    jet.hessian += weighted * away.transpose();
     return true;
   });
   jet.hessian = 4 * decay_ * decay_ * jet.hessian - 2 * decay_ * jet.value * Eigen::Matrix3d::Identity();
@@ -241,9 +220,9 @@ void GaussianField::sample(ScalarGrid& grid) const {
     low[axis] = grid.coordinate(axis, 0);
     high[axis] = grid.coordinate(axis, grid.size[axis] - 1);
   }
-  KernelAdder adder(grid, decay_, least_term_);
-  for_atoms_near(low, high, [&](const Atom& atom) {
-    adder.add(atom.center, atom.amplitude, atom.reach);
+  KernelAdder adder(grid, decay_, least_term_, kernels_.largest_reach());
+  kernels_.visit_near_box(low, high, [&](const Kernel& kernel) {
+    adder.add(kernel);
     return true;
   });
 }

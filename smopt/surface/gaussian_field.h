@@ -6,6 +6,7 @@
 
 #include "smopt/geometry/vec3.h"
 #include "smopt/io/molecule.h"
+#include "smopt/surface/kernel_rows.h"
 #include "smopt/surface/scalar_grid.h"
 
 namespace smopt {
@@ -26,8 +27,8 @@ struct FieldJet {
 /// The Gaussian field of a molecule, φ(x) = Σ exp(-d(|x - x_i|² - r_i²)) (Liu et al. 2017, equations 1 and 2).
 ///
 /// Terms below `least_term` are left out: at the density of atoms in a protein (0.1 per Å³) all that is left out at a point sums up to less
-/// than ten times the least term. Atoms are found by a grid of neighbours that takes memory for atoms only, however large the box around
-/// them is. Immutable, so that any number of threads may ask at once.
+/// than ten times the least term. The memory is that of the atoms (90 bytes each, twice as much while it is built),
+/// however large the box around them is. Immutable, so that any number of threads may ask at once.
 class GaussianField {
  public:
   /// \throws InvalidInput for a molecule without atoms, a negative or non-finite radius or coordinate, or a radius for which the kernel
@@ -36,50 +37,42 @@ class GaussianField {
   /// Cost: O(atoms·log atoms).
   GaussianField(const Molecule& molecule, const GaussianFieldOptions& options);
 
-  [[nodiscard]] std::size_t atom_count() const { return atoms_.size(); }
+  [[nodiscard]] std::size_t atom_count() const { return kernels_.kernels().size(); }
   [[nodiscard]] double decay() const { return decay_; }
+  /// In an order of their own.
+  [[nodiscard]] const std::vector<Kernel>& kernels() const { return kernels_.kernels(); }
   /// The box outside of which φ is zero.
   [[nodiscard]] const Vec3& low() const { return low_; }
   [[nodiscard]] const Vec3& high() const { return high_; }
 
-  /// The cubes of a grid of cubes that some kernel reaches, in the order z, y, x: cube (i, j, k) spans origin + edge·(i, j, k) to
+  /// The cubes of a grid of cubes that some kernel may reach (taken as a cube), in the order z, y, x: cube (i, j, k) spans origin + edge·(i, j, k) to
   /// origin + edge·(i + 1, j + 1, k + 1).
   /// \throws InvalidInput when their numbers do not fit 32 bits.
-  /// Cost: O(b·log b) for b pairs of an atom and a cube that it reaches.
+  /// Cost: O(n·log n + c·a) for n atoms, c cubes in and around the molecule and the a atoms near each.
   [[nodiscard]] std::vector<std::array<std::int32_t, 3>> reached_cubes(const Vec3& origin, double edge) const;
 
   /// Whether φ may be other than zero somewhere in the closed box.
   [[nodiscard]] bool reaches(const Vec3& low, const Vec3& high) const;
 
+  /// Whether φ may reach a value > 0 somewhere in the closed box: false is certain (for `sample`, too), and true when the kernels' largest
+  /// values in the box sum up to as much. Cost: the atoms within reach, fewer the sooner they do.
+  [[nodiscard]] bool may_reach(double value, const Vec3& low, const Vec3& high) const;
+
   /// Cost: the atoms within reach.
   [[nodiscard]] double value(const Vec3& x) const;
   [[nodiscard]] FieldJet jet(const Vec3& x) const;
 
-  /// Fills grid.values with φ at the nodes. A kernel is separable: three one-dimensional exponentials an atom, then products. The value of
-  /// a node has the same bits in every block of the same unbounded grid.
+  /// Fills grid.values with φ at the nodes (see `KernelAdder`). The value of a node has the same bits in every block of the same unbounded
+  /// grid.
   /// Cost: O(nodes + atoms within reach × nodes within the reach of each).
   void sample(ScalarGrid& grid) const;
 
  private:
-  struct Atom {
-    Vec3 center;
-    double amplitude;  ///< exp(d·r²)
-    double reach;      ///< distance at which the kernel has fallen to the least term
-  };
-
-  template <class Visit>
-  void for_atoms_near(const Vec3& low, const Vec3& high, const Visit& visit) const;
-  [[nodiscard]] std::uint64_t bin_of(const std::array<std::int64_t, 3>& at) const;
-  [[nodiscard]] std::array<std::int64_t, 3> place_of(const Vec3& x) const;
-
   double decay_;
   double least_term_;
-  double largest_reach_ = 0;
-  double bin_edge_ = 1;
   Vec3 low_;
   Vec3 high_;
-  std::vector<Atom> atoms_;          ///< in the order of their bins, and within a bin in that of the molecule
-  std::vector<std::uint64_t> bins_;  ///< of the atoms; ascending
+  KernelRows kernels_;
 };
 
 }  // namespace smopt
