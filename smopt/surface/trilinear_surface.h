@@ -5,16 +5,9 @@
 #include "smopt/mesh/triangle_mesh.h"
 #include "smopt/progress.h"
 #include "smopt/surface/scalar_grid.h"
+#include "smopt/surface/trilinear_block.h"
 
 namespace smopt {
-
-/// What the mesher met on its way.
-struct TrilinearSurfaceReport {
-  std::size_t surface_cells = 0;      ///< cells the surface crosses
-  std::size_t ambiguous_cells = 0;    ///< cells with an ambiguous face or more than one loop
-  std::size_t tunnel_cells = 0;       ///< cells in which two loops are the ends of one tunnel
-  std::size_t interior_vertices = 0;  ///< vertices inside cells, where no other triangulation is free of intersections
-};
 
 /// Meshes the level set of a grid of values, trilinear in each cell.
 ///

@@ -4,18 +4,19 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <random>
 
 #include "tests/support/matchers.h"
 #include "tests/support/shapes.h"
+#include "tests/surface/mesh_shape.h"
 
 namespace smopt {
 namespace {
 
 using ::testing::ElementsAre;
 using testing::IsClosedManifold;
+using testing::shape_of;
 
 GridEdge edge_with_number(std::int32_t number) {
   return {{number % 7, number / 7, -number}, number % 3};
@@ -40,22 +41,6 @@ std::vector<BlockMesh> dealt_out(const TriangleMesh& mesh, std::size_t blocks, s
   }
   for (BlockMesh& block : dealt) std::shuffle(block.shared.begin(), block.shared.end(), random);
   return dealt;
-}
-
-using Corners = std::array<std::array<double, 3>, 3>;
-
-/// The triangles by their corners' places, sorted: what stays when vertices and triangles are numbered anew.
-std::vector<Corners> shape_of(const TriangleMesh& mesh) {
-  std::vector<Corners> shape;
-  for (const Triangle& triangle : mesh.triangles) {
-    Corners& corners = shape.emplace_back();
-    for (int i = 0; i < 3; ++i) {
-      const Vec3& p = mesh.points[triangle[i]];
-      corners[i] = {p.x(), p.y(), p.z()};
-    }
-  }
-  std::sort(shape.begin(), shape.end());
-  return shape;
 }
 
 TEST(JoinedBlocks, MakeTheMeshAgainThatWasDealtOut) {
