@@ -1,13 +1,23 @@
 #include "smopt/surface/gaussian_surface.h"
 
 #include <gmock/gmock.h>
+#include <malloc.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <numbers>
+#include <thread>
 
+#include "smopt/peak_memory.h"
+#include "smopt/surface/gaussian_field.h"
+#include "smopt/surface/surface_estimate.h"
+#include "smopt/surface/trilinear_surface.h"
 #include "tests/support/files.h"
 #include "tests/support/matchers.h"
+#include "tests/support/molecules.h"
+#include "tests/surface/mesh_shape.h"
 #include "tests/surface/self_intersections.h"
 
 namespace smopt {
@@ -18,13 +28,10 @@ using testing::enclosed_volume;
 using testing::euler_characteristic;
 using ::testing::HasSubstr;
 using testing::IsClosedManifold;
+using testing::molecule_of;
+using testing::shape_of;
 using testing::surface_area;
 using ::testing::ThrowsMessage;
-
-Molecule molecule_of(std::vector<Vec3> centers, std::vector<double> radii) {
-  const std::size_t n = centers.size();
-  return {std::move(centers), std::vector<double>(n, 0.0), std::move(radii)};
-}
 
 GaussianSurfaceOptions with_spacing(double spacing) {
   GaussianSurfaceOptions options;
@@ -114,12 +121,162 @@ TEST(GaussianSurface, FarFromTheOriginIsTheSameShape) {
   EXPECT_EQ(far.vertex_count(), near.vertex_count());
 }
 
-TEST(GaussianSurface, RefusesAnIsovalueThatIsNeverReachedAndNamesTheMaximum) {
+TEST(GaussianSurface, IsThatOfTheWholeGridWhereverItsBlocksEnd) {
+  const Molecule molecule = testing::random_cluster(300, 5);
+  const double spacing = 0.3;
+  const GaussianField field(molecule, {0.6, 1e-6});
+  ScalarGrid grid;
+  grid.spacing = spacing;
+  grid.origin = field.low() - Vec3::Constant(spacing);
+  for (int axis = 0; axis < 3; ++axis)
+    grid.size[axis] = static_cast<std::uint32_t>(std::ceil((field.high()[axis] - grid.origin[axis]) / spacing)) + 2;
+  field.sample(grid);
+  const TriangleMesh whole = trilinear_surface(grid, 1);
+  const TriangleMesh mesh = gaussian_surface(molecule, with_spacing(spacing));
+  EXPECT_GT(*std::max_element(grid.size.begin(), grid.size.end()), 70U);  // several blocks
+  EXPECT_EQ(mesh.vertex_count(), whole.vertex_count());
+  EXPECT_EQ(shape_of(mesh), shape_of(whole));
+}
+
+TEST(GaussianSurface, IsTheSameForAnyNumberOfThreads) {
+  const Molecule molecule = testing::random_cluster(800, 6);
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    GaussianSurfaceReport report;
+    TriangleMesh mesh = gaussian_surface(molecule, with_spacing(0.35), &report);
+    return std::tuple(std::move(mesh.points), std::move(mesh.triangles), report.surface_cells, report.interior_vertices);
+  };
+  const auto one = with_threads(1);
+  for (const std::size_t threads : {2, 3, 8}) EXPECT_TRUE(with_threads(threads) == one) << threads << " threads";
+}
+
+/// Memory that `work` takes at its largest beyond what is in use before, MB.
+template <class Work>
+double peak_memory_mb_during(const Work& work) {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
+  const double before = peak_memory_mb();
+  work();
+  return peak_memory_mb() - before;
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kMemoryIsMeasurable = false;
+#else
+constexpr bool kMemoryIsMeasurable = true;
+#endif
+
+TEST(GaussianSurface, OfAtomsFarApartTakesNextToNothing) {
+  // The box would have 2.4e15 nodes.
+  const Molecule molecule = molecule_of({{0, 0, 0}, {1e5, 1e5, 1e5}}, {kRadius, kRadius});
+  TriangleMesh mesh;
+  const double memory = peak_memory_mb_during([&] { mesh = gaussian_surface(molecule, {}); });
+  EXPECT_THAT(mesh, IsClosedManifold());
+  EXPECT_EQ(euler_characteristic(mesh), 4);
+  EXPECT_NEAR(enclosed_volume(mesh), 2 * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3), 4);
+  if (kMemoryIsMeasurable) {
+    EXPECT_LT(memory, 8);
+  }
+}
+
+TEST(GaussianSurface, OfAHollowShellTakesMemoryForTheShell) {
+  // Atoms 1.2 Å apart on a sphere of radius 150 Å: a box of 74 million nodes at 0.745 Å, 590 MB.
+  constexpr int kAtoms = 200000;
+  std::vector<Vec3> centers;
+  for (int i = 0; i < kAtoms; ++i) {
+    const double z = 1 - 2 * (i + 0.5) / kAtoms;
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    centers.emplace_back(150 * Vec3(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z));
+  }
+  const Molecule molecule = molecule_of(centers, std::vector<double>(kAtoms, 1.5));
+  TriangleMesh mesh;
+  GaussianSurfaceReport report;
+  const double memory = peak_memory_mb_during([&] { mesh = gaussian_surface(molecule, {}, &report); });
+  EXPECT_EQ(euler_characteristic(mesh), 4);  // outside and inside
+  EXPECT_LT(report.grid_nodes, 40000000U);
+  if (kMemoryIsMeasurable) {
+    EXPECT_LT(memory, 250);
+  }
+}
+
+TEST(GaussianSurface, NeedsTheMemoryThatIsEstimated) {
+  const std::filesystem::path file = testing::apbs_molecule("misc/mache.pqr");
+  if (file.empty()) GTEST_SKIP() << "apbs-data is not installed";
+  if (!kMemoryIsMeasurable) GTEST_SKIP() << "the sanitizer takes memory too";
+  const Molecule molecule = read_molecule(file);
+  const GaussianField field(molecule, {0.6, 1e-6});
+  for (const double spacing : {0.3, 0.745}) {
+    const double estimate = bytes_to_mesh(field, estimated_vertices(field, {1, spacing})) / (1 << 20);
+    const double measured = peak_memory_mb_during([&] { gaussian_surface(molecule, with_spacing(spacing)); });
+    EXPECT_LT(measured, 1.5 * estimate) << spacing;
+    EXPECT_GT(measured, estimate / 1.5) << spacing;
+  }
+}
+
+TEST(GaussianSurface, RefusesToTakeMoreMemoryThanTheLimitAndSaysHowMuch) {
+  const Molecule molecule = testing::random_cluster(2000, 7);
+  GaussianSurfaceOptions options = with_spacing(0.05);
+  options.max_memory_bytes = std::size_t{64} << 20;
+  EXPECT_THAT([&] { gaussian_surface(molecule, options); },
+              ThrowsMessage<InvalidInput>(
+                  ::testing::ContainsRegex("some .* vertices and need some [0-9]+ MB of memory, more than the limit of 64 MB")));
+  options.spacing = 0.745;  // whose bound from the atoms alone is above the limit, too
+  EXPECT_GT(most_vertices(GaussianField(molecule, {}), {1, 0.745}), 8e5);
+  EXPECT_NO_THROW(gaussian_surface(molecule, options));
+}
+
+TEST(GaussianSurface, RefusesMoreVerticesThanCanBeNumbered) {
+  const Molecule molecule = testing::random_cluster(2000, 7);
+  EXPECT_THAT([&] { gaussian_surface(molecule, with_spacing(1e-4)); },
+              ThrowsMessage<InvalidInput>(HasSubstr("vertices, more than 32-bit indices can number")));
+}
+
+TEST(GaussianSurface, RefusesASpacingThatDoublesDoNotResolve) {
+  const Molecule molecule = molecule_of({{1e9, 0, 0}}, {1});
+  EXPECT_THAT([&] { gaussian_surface(molecule, {}); }, ThrowsMessage<InvalidInput>(HasSubstr("cannot be resolved")));
+}
+
+TEST(GaussianSurface, RefusesAnIsovalueThatIsNeverReachedAndNamesTheFieldsRange) {
+  // Alone, an atom has its maximum e^(d·r²) at its centre.
   const Molecule molecule = molecule_of({{0, 0, 0}}, {1});
   GaussianSurfaceOptions options;
   options.isovalue = 5;
   EXPECT_THAT([&] { gaussian_surface(molecule, options); },
-              ThrowsMessage<InvalidInput>(HasSubstr("never reaches the isovalue 5: its maximum")));
+              ThrowsMessage<InvalidInput>(HasSubstr("never reaches the isovalue 5: it is between 0 and 1.82212")));
+}
+
+TEST(GaussianSurface, SaysWhenTheIsovalueIsReachedBetweenTheNodesOnly) {
+  const Molecule molecule = molecule_of({{0, 0, 0}}, {0.3});
+  EXPECT_THAT([&] { gaussian_surface(molecule, with_spacing(2)); },
+              ThrowsMessage<InvalidInput>(HasSubstr("choose a spacing smaller than 2")));
+  EXPECT_THAT(gaussian_surface(molecule, with_spacing(0.2)), IsClosedManifold());
+}
+
+TEST(GaussianSurface, StopsWhenTheCallbackSaysSo) {
+  const Molecule molecule = testing::random_cluster(300, 8);
+  for (const int calls : {0, 1, 5}) {
+    int left = calls;
+    EXPECT_THROW(gaussian_surface(molecule, with_spacing(0.3), nullptr, [&](auto, double) { return left-- > 0; }), Cancelled) << calls;
+  }
+}
+
+TEST(GaussianSurface, ReportsItsProgressInOrderAndOneCallAtATime) {
+  const Molecule molecule = testing::random_cluster(300, 8);
+  double last = 0;
+  int running = 0;
+  bool was_in_order = true;
+  bool was_alone = true;
+  gaussian_surface(molecule, with_spacing(0.3), nullptr, [&](std::string_view, double fraction) {
+    was_alone = was_alone && ++running == 1;
+    was_in_order = was_in_order && fraction >= last && fraction <= 1;
+    last = fraction;
+    std::this_thread::yield();
+    --running;
+    return true;
+  });
+  EXPECT_TRUE(was_in_order);
+  EXPECT_TRUE(was_alone);
+  EXPECT_EQ(last, 1);
 }
 
 TEST(GaussianSurface, RefusesBadOptionsAndMolecules) {
@@ -129,7 +286,7 @@ TEST(GaussianSurface, RefusesBadOptionsAndMolecules) {
     EXPECT_THROW(gaussian_surface(molecule, {0.6, bad, 0.745}), InvalidOption);
     EXPECT_THROW(gaussian_surface(molecule, {0.6, 1, bad}), InvalidOption);
   }
-  EXPECT_THROW(gaussian_surface({}, {}), InvalidInput);
+  EXPECT_THROW(gaussian_surface(Molecule{}, {}), InvalidInput);
   EXPECT_THROW(gaussian_surface(molecule_of({{0, 0, 0}}, {-1}), {}), InvalidInput);
 }
 
