@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "smopt/parallel.h"
 #include "smopt/surface/cell_surroundings.h"
 #include "smopt/surface/face_links.h"
 #include "smopt/surface/hanging_loop.h"
@@ -54,9 +55,10 @@ struct Wishes {
   std::vector<Id> divide_for_balance;
   std::vector<Id> divide_for_hanging;
   std::vector<Id> divide_for_topology;
+  std::vector<Id> undecided;  ///< leaves about which more can be said when this is done
 
   [[nodiscard]] bool empty() const {
-    return roots.empty() && divide_for_error.empty() && divide_for_balance.empty() && divide_for_hanging.empty() &&
+    return undecided.empty() && roots.empty() && divide_for_error.empty() && divide_for_balance.empty() && divide_for_hanging.empty() &&
            divide_for_topology.empty();
   }
 };
@@ -79,7 +81,8 @@ class Partitioner {
 
   AdaptivePartition run(AdaptivePartitionReport& report, const ProgressCallback& progress) {
     plant_roots(progress);
-    while (settle(all_leaves(), report, progress)) {
+    settle(all_leaves(), report, progress);
+    while (settle(hanging_leaves(), report, progress)) {
     }
     return {lattice_, std::move(forest_)};
   }
@@ -130,48 +133,68 @@ class Partitioner {
 
   // ---- a look at leaves ----
 
-  [[nodiscard]] std::vector<Id> all_leaves() const {
+  template <class Predicate>
+  [[nodiscard]] std::vector<Id> leaves_where(const Predicate& is_wanted) const {
     std::vector<Id> leaves;
     for (Id id = 0; id < static_cast<Id>(forest_.cells().size()); ++id) {
-      if (forest_.is_leaf(id)) leaves.push_back(id);
+      if (forest_.is_leaf(id) && is_wanted(id)) leaves.push_back(id);
     }
     return leaves;
   }
 
+  [[nodiscard]] std::vector<Id> all_leaves() const {
+    return leaves_where([](Id) { return true; });
+  }
+
+  /// Those whose values depend on other cells.
+  [[nodiscard]] std::vector<Id> hanging_leaves() const {
+    std::vector<char> has_coarser(forest_.cells().size(), 0);
+    for_ranges_in_parallel(has_coarser.size(), [&](std::size_t begin, std::size_t end) {
+      for (auto id = static_cast<Id>(begin); id < static_cast<Id>(end); ++id)
+        has_coarser[id] = forest_.is_leaf(id) && forest_.cell(id).place.level > 0 && surroundings_of(forest_, id).has_coarser ? 1 : 0;
+    });
+    return leaves_where([&](Id id) { return has_coarser[id] != 0; });
+  }
+
   /// Looks at leaves, does what they ask for, and looks at the leaves about what was done, until they ask for nothing.
-  /// \return whether anything was done. What leaves farther off have through the values of hanging nodes may have changed then.
+  /// \return whether anything was done. The values of hanging nodes farther off may have changed then.
   bool settle(std::vector<Id> leaves, AdaptivePartitionReport& report, const ProgressCallback& progress) {
     bool has_changed = false;
     while (!leaves.empty()) {
       report_progress(progress, "partition", 0.5);
       const auto first_new = static_cast<Id>(forest_.cells().size());
-      grant(examine(leaves), report);
-      leaves = leaves_about(first_new);
+      const Wishes wishes = examine(leaves);
+      grant(wishes, report);
+      leaves = wishes.empty() ? std::vector<Id>{} : leaves_about(first_new, wishes.undecided);
       has_changed = has_changed || !leaves.empty();
     }
     return has_changed;
   }
 
-  /// The leaves among the cells from `first_new` on, and those that touch them; ascending.
-  [[nodiscard]] std::vector<Id> leaves_about(Id first_new) const {
+  /// The leaves among the cells from `first_new` on, those that touch them, and those that were left undecided; ascending.
+  [[nodiscard]] std::vector<Id> leaves_about(Id first_new, const std::vector<Id>& undecided) const {
     const auto end = static_cast<Id>(forest_.cells().size());
     std::vector<bool> is_about(end, false);
     for (Id id = first_new; id < end; ++id) {
       is_about[id] = true;
       const CellPlace& place = forest_.cell(id).place;
-      for (int face = 0; face < cube::kFaces; ++face) mark(place_across_face(place, face), is_about);
-      for (int edge = 0; edge < cube::kEdges; ++edge) mark(place_across_edge(place, edge), is_about);
+      if (place.level > 0 && !place.is_first_child()) continue;  // one look for all eight
+      const CellPlace around = place.level > 0 ? place.parent() : place;
+      for (int face = 0; face < cube::kFaces; ++face) mark(place_across_face(around, face), is_about);
+      for (int edge = 0; edge < cube::kEdges; ++edge) mark(place_across_edge(around, edge), is_about);
     }
-    std::vector<Id> leaves;
-    for (Id id = 0; id < end; ++id) {
-      if (is_about[id] && forest_.is_leaf(id)) leaves.push_back(id);
-    }
-    return leaves;
+    for (const Id id : undecided) is_about[id] = true;
+    return leaves_where([&](Id id) { return is_about[id]; });
   }
 
+  /// Marks the cell at a place, or its children where it has some: they may be leaves.
   void mark(const CellPlace& place, std::vector<bool>& is_about) const {
     const Id id = forest_.find(place);
-    if (id != CellForest::kNone) is_about[id] = true;
+    if (id == CellForest::kNone) return;
+    if (forest_.is_leaf(id))
+      is_about[id] = true;
+    else
+      std::fill_n(is_about.begin() + forest_.first_child(id), cube::kCorners, true);
   }
 
   [[nodiscard]] Wishes examine(const std::vector<Id>& leaves) const {
@@ -188,6 +211,7 @@ class Partitioner {
       append(all.divide_for_balance, part.divide_for_balance);
       append(all.divide_for_hanging, part.divide_for_hanging);
       append(all.divide_for_topology, part.divide_for_topology);
+      append(all.undecided, part.undecided);
     }
     return all;
   }
@@ -200,10 +224,14 @@ class Partitioner {
       return;
     }
     const CellSurroundings around = surroundings_of(forest_, id);
-    if (cell.place.level > 0 && !is_balanced(cell.place, around, wishes)) return;
+    if (cell.place.level > 0 && !is_balanced(cell.place, around, wishes)) {
+      wishes.undecided.push_back(id);
+      return;
+    }
     const cube::CornerValues values = continuous_values(forest_, id, around);
     if (around.has_coarser && cell.may_be_crossed && hanging_error_is_too_large(cell, values)) {
       for_coarser_leaves(cell.place, around, 1, [&](Id coarser) { wishes.divide_for_hanging.push_back(coarser); });
+      wishes.undecided.push_back(id);
       return;
     }
     if (around.split_faces != 0 && is_crossed(values) && !trace_hanging_loop(values, around.split_faces))

@@ -17,6 +17,8 @@ struct CellPlace {
   [[nodiscard]] CellPlace child(int corner) const {
     return {{2 * at[0] + (corner & 1), 2 * at[1] + (corner >> 1 & 1), 2 * at[2] + (corner >> 2)}, level + 1};
   }
+  [[nodiscard]] CellPlace parent() const { return {{at[0] >> 1, at[1] >> 1, at[2] >> 1}, level - 1}; }
+  [[nodiscard]] bool is_first_child() const { return ((at[0] | at[1] | at[2]) & 1) == 0; }
 };
 
 /// The cubes of an adaptive partition: roots of level 0, kept where there is something to say about them, each the top of an octree.
@@ -38,6 +40,8 @@ class CellForest {
   [[nodiscard]] bool is_leaf(Id id) const { return first_child_[id] == kNone; }
   /// Of the eight children, which follow each other in the order of the cube's corners.
   [[nodiscard]] Id first_child(Id id) const { return first_child_[id]; }
+  /// Memory of a cell and of what is kept about it: vectors may be half full.
+  [[nodiscard]] static constexpr double bytes_per_cell() { return 2 * (sizeof(Cell) + sizeof(Id)); }
   /// The cell at this place, or the leaf it would lie in; kNone where no root is kept.
   [[nodiscard]] Id find(const CellPlace& place) const;
 
