@@ -153,7 +153,7 @@ CellForest::Cell CellSampler::judged(const CellPlace& place, const ScalarGrid& s
 
 std::vector<CellForest::Cell> CellSampler::block_of_roots(const std::array<std::int32_t, 3>& first, std::int32_t edge) const {
   ScalarGrid samples = lattice_.nodes({first, 0}, {edge, edge, edge}, 1);
-  field_.sample(samples);
+  field_.sample(samples, SampleBits::of_position);
   std::vector<CellForest::Cell> cells;
   const auto n = static_cast<std::size_t>(edge);
   cells.reserve(n * n * n);
@@ -171,7 +171,7 @@ std::vector<CellForest::Cell> CellSampler::block_of_roots(const std::array<std::
 
 std::array<CellForest::Cell, cube::kCorners> CellSampler::children(const CellPlace& parent) const {
   ScalarGrid samples = lattice_.nodes(parent, {1, 1, 1}, 2);
-  field_.sample(samples);
+  field_.sample(samples, SampleBits::of_position);
   std::array<CellForest::Cell, cube::kCorners> cells;
   for (int corner = 0; corner < cube::kCorners; ++corner) {
     const std::array<std::size_t, 3> node = {2 * static_cast<std::size_t>(corner & 1), 2 * static_cast<std::size_t>(corner >> 1 & 1),

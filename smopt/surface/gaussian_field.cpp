@@ -211,7 +211,7 @@ FieldJet GaussianField::jet(const Vec3& x) const {
   return jet;
 }
 
-void GaussianField::sample(ScalarGrid& grid) const {
+void GaussianField::sample(ScalarGrid& grid, SampleBits bits) const {
   grid.values.assign(grid.node_count(), 0.0);
   if (grid.values.empty()) return;
   Vec3 low;
@@ -220,7 +220,7 @@ void GaussianField::sample(ScalarGrid& grid) const {
     low[axis] = grid.coordinate(axis, 0);
     high[axis] = grid.coordinate(axis, grid.size[axis] - 1);
   }
-  KernelAdder adder(grid, decay_, least_term_, kernels_.largest_reach());
+  KernelAdder adder(grid, decay_, least_term_, kernels_.largest_reach(), bits);
   kernels_.visit_near_box(low, high, [&](const Kernel& kernel) {
     adder.add(kernel);
     return true;

@@ -6,6 +6,7 @@
 
 #include "smopt/geometry/vec3.h"
 #include "smopt/io/molecule.h"
+#include "smopt/surface/kernel_adder.h"
 #include "smopt/surface/kernel_rows.h"
 #include "smopt/surface/scalar_grid.h"
 
@@ -63,9 +64,9 @@ class GaussianField {
   [[nodiscard]] FieldJet jet(const Vec3& x) const;
 
   /// Fills grid.values with φ at the nodes (see `KernelAdder`). The value of a node has the same bits in every block of the same unbounded
-  /// grid.
+  /// grid, and with `SampleBits::of_position` in every grid that has a node just there.
   /// Cost: O(nodes + atoms within reach × nodes within the reach of each).
-  void sample(ScalarGrid& grid) const;
+  void sample(ScalarGrid& grid, SampleBits bits = SampleBits::of_grid) const;
 
  private:
   double decay_;

@@ -1,19 +1,17 @@
 #include "smopt/surface/gaussian_surface.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
+#include <numeric>
 
-#include "smopt/surface/block_mesh.h"
+#include "smopt/error.h"
+#include "smopt/peak_memory.h"
+#include "smopt/surface/adaptive_estimate.h"
 #include "smopt/surface/field_blocks.h"
-#include "smopt/surface/gaussian_field.h"
-#include "smopt/surface/surface_estimate.h"
-#include "smopt/surface/trilinear_block.h"
+#include "smopt/surface/uniform_surface.h"
 
 namespace smopt {
 namespace {
@@ -22,39 +20,8 @@ namespace {
 /// ångström, as it does around atoms, each moves the surface by less than a millionth of an ångström.
 constexpr double kLeastTermRelative = 1e-6;
 
-/// Vertex numbers are 32-bit.
-constexpr double kMostVertices = std::numeric_limits<VertexId>::max();
-
-constexpr double kBytesPerMb = 1 << 20;
-
 void require_positive(double value, const char* name) {
   if (!(std::isfinite(value) && value > 0)) throw InvalidOption(fmt::format("{} must be positive and finite, not {}", name, value));
-}
-
-double memory_of_machine() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-GaussianField field_of(const Molecule& molecule, const GaussianSurfaceOptions& options) {
-  return {molecule, {options.decay, kLeastTermRelative * std::min(1.0, options.isovalue)}};
-}
-
-/// The bound from the atoms alone is enough for most; else vertices are counted on a coarse grid.
-void require_feasible(const GaussianField& field, const GaussianSurfaceOptions& options, const ProgressCallback& progress) {
-  const UniformSurface surface{options.isovalue, options.spacing};
-  const double most_bytes = options.max_memory_bytes == 0 ? memory_of_machine() : static_cast<double>(options.max_memory_bytes);
-  const auto is_feasible = [&](double vertices) { return vertices <= kMostVertices && bytes_to_mesh(field, vertices) <= most_bytes; };
-  if (is_feasible(most_vertices(field, surface))) return;
-
-  const double vertices = estimated_vertices(field, surface, progress);
-  if (is_feasible(vertices)) return;
-  if (vertices > kMostVertices)
-    throw InvalidInput(fmt::format("at a spacing of {} Å the surface would have some {:.2g} vertices, more than 32-bit indices can number",
-                                   options.spacing, vertices));
-  throw InvalidInput(
-      fmt::format("at a spacing of {} Å the surface would have some {:.2g} vertices and need some {:.0f} MB of memory, more than "
-                  "the limit of {:.0f} MB",
-                  options.spacing, vertices, bytes_to_mesh(field, vertices) / kBytesPerMb, most_bytes / kBytesPerMb));
 }
 
 /// The largest value at the nodes of the grid.
@@ -77,48 +44,64 @@ double maximum_at_nodes(const GaussianField& field, double spacing) {
   if (at_centers >= options.isovalue)
     throw InvalidInput(
         fmt::format("the field reaches the isovalue {} only between the nodes of the grid ({:.6g} at an atom's centre, at most "
-                    "{:.6g} at the nodes): choose a spacing smaller than {} Å",
-                    options.isovalue, at_centers, at_nodes, options.spacing));
+                    "{:.6g} at the nodes): choose a smaller {} than {} Å",
+                    options.isovalue, at_centers, at_nodes, options.error > 0 ? "error" : "spacing",
+                    options.error > 0 ? options.error : options.spacing));
   throw InvalidInput(
       fmt::format("the field never reaches the isovalue {}: it is between 0 and {:.6g}, its largest value at the atoms' centres "
                   "and the nodes of the grid",
                   options.isovalue, std::max(at_centers, at_nodes)));
 }
 
-/// Each thread meshes blocks in memory of its own; what is kept has just the size it needs.
-std::vector<BlockMesh> mesh_blocks(const FieldBlocks& blocks, double isovalue, TrilinearSurfaceReport& report,
-                                   const ProgressCallback& progress) {
-  struct Workplace {
-    BlockMesh mesh;
-    TrilinearSurfaceReport report;
-  };
-  tbb::enumerable_thread_specific<Workplace> workplaces;
-  std::vector<BlockMesh> meshes(blocks.count());
-  const auto mesh_block = [&](std::size_t i, const ScalarGrid& block) {
-    Workplace& workplace = workplaces.local();
-    workplace.report += mesh_trilinear_block(block, isovalue, workplace.mesh);
-    meshes[i] = BlockMesh(workplace.mesh);
-  };
-  blocks.visit_all(mesh_block, "surface", progress);
-  for (const Workplace& workplace : workplaces) report += workplace.report;
-  return meshes;
+/// Partitions for larger errors are small beside the memory of machines, and trials would take as long as they do, Å.
+constexpr double kErrorWorthATrial = 0.1;
+
+TriangleMesh adaptive(const GaussianField& field, const GaussianSurfaceOptions& options, GaussianSurfaceReport& report,
+                      const ProgressCallback& progress) {
+  require_positive(options.error, "error");
+  if (options.max_memory_bytes > 0 || options.error < kErrorWorthATrial) {
+    const std::uint64_t limit = options.max_memory_bytes > 0 ? options.max_memory_bytes : physical_memory_bytes();
+    require_memory_for_partition(field, options.isovalue, options.error, limit);
+  }
+  AdaptiveSurfaceReport& met = report.adaptive;
+  AdaptivePartitionReport divided;
+  const AdaptivePartition partition = partition_space(field, options.isovalue, options.error, &divided, progress);
+  TriangleMesh mesh = adaptive_surface(partition, &met, progress);
+  met.divided = divided;
+  report.surface_cells = std::accumulate(met.surface_cells.begin(), met.surface_cells.end(), std::size_t{0});
+  report.ambiguous_cells = met.ambiguous_cells;
+  report.tunnel_cells = met.tunnel_cells;
+  report.interior_vertices = met.interior_vertices;
+  return mesh;
+}
+
+TriangleMesh uniform(const GaussianField& field, const GaussianSurfaceOptions& options, GaussianSurfaceReport& report,
+                     const ProgressCallback& progress) {
+  UniformSurfaceReport met;
+  TriangleMesh mesh = uniform_surface(field, {options.isovalue, options.spacing}, options.max_memory_bytes, &met, progress);
+  report.grid_nodes = met.grid_nodes;
+  report.surface_cells = met.cells.surface_cells;
+  report.ambiguous_cells = met.cells.ambiguous_cells;
+  report.tunnel_cells = met.cells.tunnel_cells;
+  report.interior_vertices = met.cells.interior_vertices;
+  return mesh;
 }
 
 }  // namespace
 
+GaussianFieldOptions gaussian_field_options(const GaussianSurfaceOptions& options) {
+  return {options.decay, kLeastTermRelative * std::min(1.0, options.isovalue)};
+}
+
 TriangleMesh gaussian_surface(const Molecule& molecule, const GaussianSurfaceOptions& options, GaussianSurfaceReport* report,
                               const ProgressCallback& progress) {
   require_positive(options.isovalue, "isovalue");
-  require_positive(options.spacing, "spacing");
-  const GaussianField field = field_of(molecule, options);
-  require_feasible(field, options, progress);
-  const FieldBlocks blocks(field, options.spacing, options.isovalue);
-  TrilinearSurfaceReport met;
-  TriangleMesh mesh = joined(mesh_blocks(blocks, options.isovalue, met, progress));
+  const GaussianField field(molecule, gaussian_field_options(options));
+  GaussianSurfaceReport met;
+  met.atoms = molecule.atom_count();
+  TriangleMesh mesh = options.error != 0 ? adaptive(field, options, met, progress) : uniform(field, options, met, progress);
   if (mesh.points.empty()) fail_unreached(field, options);
-  if (report) {
-    *report = {molecule.atom_count(), blocks.node_count(), met.surface_cells, met.ambiguous_cells, met.tunnel_cells, met.interior_vertices};
-  }
+  if (report) *report = met;
   return mesh;
 }
 

@@ -50,9 +50,10 @@ void step_outwards(double at_middle, double ratio, std::ptrdiff_t from, std::ptr
 
 }  // namespace
 
-KernelAdder::KernelAdder(ScalarGrid& grid, double decay, double least_term, double largest_reach)
-    : grid_(grid), decay_(decay), least_term_(least_term) {
+KernelAdder::KernelAdder(ScalarGrid& grid, double decay, double least_term, double largest_reach, SampleBits bits)
+    : grid_(grid), decay_(decay), least_term_(least_term), bits_(bits) {
   for (int axis = 0; axis < 3; ++axis) profiles_[axis].values.resize(grid.size[axis]);
+  if (bits == SampleBits::of_position) return;
   const double steps = std::ceil(largest_reach / grid.spacing) + 2;  // the nearest node is up to half a spacing from the centre
   falls_.reserve(static_cast<std::size_t>(steps));
   for (double k = 0; k < steps; ++k) falls_.push_back(std::exp(-decay * squared(k * grid.spacing)));
@@ -83,8 +84,8 @@ bool KernelAdder::sample_profile(int axis, const Kernel& kernel) {
   Profile& profile = profiles_[axis];
   profile.first = static_cast<std::size_t>(first - offset);
   profile.count = static_cast<std::size_t>(last - first) + 1;
-  if (decay_ * squared(kernel.reach + h) > kSteepestExponent) {
-    sample_node_by_node(axis, center, profile);
+  if (bits_ == SampleBits::of_position || decay_ * squared(kernel.reach + h) > kSteepestExponent) {
+    sample_node_by_node(axis, kernel, profile);
     return true;
   }
   const double nearest = std::floor((center - grid_.origin[axis]) / h + 0.5);
@@ -98,9 +99,11 @@ bool KernelAdder::sample_profile(int axis, const Kernel& kernel) {
   return true;
 }
 
-void KernelAdder::sample_node_by_node(int axis, double center, Profile& profile) const {
-  for (std::size_t i = 0; i < profile.count; ++i)
-    profile.values[i] = std::exp(-decay_ * squared(grid_.coordinate(axis, profile.first + i) - center));
+void KernelAdder::sample_node_by_node(int axis, const Kernel& kernel, Profile& profile) const {
+  for (std::size_t i = 0; i < profile.count; ++i) {
+    const double x = grid_.coordinate(axis, profile.first + i) - kernel.center[axis];
+    profile.values[i] = std::exp(-decay_ * squared(x));
+  }
 }
 
 }  // namespace smopt

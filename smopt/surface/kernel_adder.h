@@ -9,6 +9,12 @@
 
 namespace smopt {
 
+/// On what the bits of a node's value depend, apart from the kernels.
+enum class SampleBits {
+  of_grid,     ///< on the unbounded grid and the node: two exponentials an axis
+  of_position  ///< on the node's position alone, so that grids of different spacing agree where they have a node in common: one a node
+};
+
 /// Adds Gaussian kernels exp(-d·|x - center|²)·amplitude to the nodes of a block, one after another.
 ///
 /// A kernel is separable: a profile on each axis, then products. A profile starts at the node nearest to the centre, with one exponential,
@@ -18,7 +24,7 @@ namespace smopt {
 class KernelAdder {
  public:
   /// \param largest_reach  of all kernels that will be added, ångström.
-  KernelAdder(ScalarGrid& grid, double decay, double least_term, double largest_reach);
+  KernelAdder(ScalarGrid& grid, double decay, double least_term, double largest_reach, SampleBits bits);
 
   /// Cost: the nodes within reach.
   void add(const Kernel& kernel);
@@ -32,11 +38,12 @@ class KernelAdder {
   };
 
   bool sample_profile(int axis, const Kernel& kernel);
-  void sample_node_by_node(int axis, double center, Profile& profile) const;
+  void sample_node_by_node(int axis, const Kernel& kernel, Profile& profile) const;
 
   ScalarGrid& grid_;
   double decay_;
   double least_term_;
+  SampleBits bits_;
   std::vector<double> falls_;  // exp(-d(kh)²)
   std::array<Profile, 3> profiles_;
 };

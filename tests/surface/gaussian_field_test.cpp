@@ -173,6 +173,25 @@ TEST(GaussianField, HasTheSameBitsInEveryBlock) {
   }
 }
 
+TEST(GaussianField, HasTheSameBitsOnGridsThatAreHalvedWhereItIsAskedForThem) {
+  const GaussianField field(random_molecule(60, 5), {0.6, 1e-6});
+  ScalarGrid coarse{{9, 10, 11}, {-3.1, -2.7, -3.3}, 0.7, {}, {1, 0, -1}};
+  ScalarGrid fine = coarse;
+  fine.spacing = 0.5 * coarse.spacing;
+  for (int axis = 0; axis < 3; ++axis) {
+    fine.first[axis] = 2 * coarse.first[axis];
+    fine.size[axis] = 2 * coarse.size[axis] - 1;
+  }
+  field.sample(coarse, SampleBits::of_position);
+  field.sample(fine, SampleBits::of_position);
+  for (std::size_t k = 0; k < coarse.size[2]; ++k) {
+    for (std::size_t j = 0; j < coarse.size[1]; ++j) {
+      for (std::size_t i = 0; i < coarse.size[0]; ++i)
+        ASSERT_EQ(coarse.values[coarse.index(i, j, k)], fine.values[fine.index(2 * i, 2 * j, 2 * k)]);
+    }
+  }
+}
+
 TEST(GaussianField, IsZeroOutsideOfItsBox) {
   const GaussianField field(random_molecule(10, 9), {0.6, 1e-6});
   for (int axis = 0; axis < 3; ++axis) {

@@ -248,7 +248,7 @@ TEST(GaussianSurface, RefusesAnIsovalueThatIsNeverReachedAndNamesTheFieldsRange)
 TEST(GaussianSurface, SaysWhenTheIsovalueIsReachedBetweenTheNodesOnly) {
   const Molecule molecule = molecule_of({{0, 0, 0}}, {0.3});
   EXPECT_THAT([&] { gaussian_surface(molecule, with_spacing(2)); },
-              ThrowsMessage<InvalidInput>(HasSubstr("choose a spacing smaller than 2")));
+              ThrowsMessage<InvalidInput>(HasSubstr("choose a smaller spacing than 2")));
   EXPECT_THAT(gaussian_surface(molecule, with_spacing(0.2)), IsClosedManifold());
 }
 
