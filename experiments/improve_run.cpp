@@ -2,43 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <oneapi/tbb/global_control.h>
-
-#include <array>
 #include <charconv>
 
 #include "baselines/baselines.h"
+#include "experiments/run_report.h"
 #include "metrics/intersections.h"
 #include "smopt/error.h"
 #include "smopt/io/mesh_io.h"
 #include "smopt/io/off.h"
-#include "smopt/io/sha256.h"
-#include "smopt/peak_memory.h"
-#include "smopt/version.h"
 
 namespace smopt::experiments {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array<const char*, 7> kStages = {"read", "validity", "cavities", "redundant", "smoothing", "write", "total"};
-
-bool is_stream(const std::filesystem::path& path) {
-  return path == "-";
-}
-
-/// Of a closed manifold without isolated vertices, where 2 E = 3 F.
-long euler_characteristic(const TriangleMesh& mesh) {
-  return static_cast<long>(mesh.vertex_count()) - static_cast<long>(mesh.triangle_count() / 2);
-}
-
-Json mesh_json(const TriangleMesh& mesh, const std::filesystem::path& file) {
-  return {{"file", file.string()},
-          {"vertices", mesh.vertex_count()},
-          {"triangles", mesh.triangle_count()},
-          {"euler_characteristic", euler_characteristic(mesh)},
-          {"sha256", is_stream(file) ? Json(nullptr) : Json(sha256_of_file(file))}};
-}
 
 PreparationReport prepare_file(TriangleMesh& mesh, CavityPolicy cavities, const std::filesystem::path& file) {
   try {
@@ -75,17 +51,6 @@ Json rounds_json(const std::vector<RoundReport>& rounds) {
 }
 
 }  // namespace
-
-void add_seconds(Json& report, const StageTimes& times) {
-  for (const char* key : {"seconds", "cpu_seconds"}) {
-    report[key] = Json::object();
-    for (const char* stage : kStages) report[key][stage] = 0.0;
-  }
-  for (const auto& [stage, seconds] : times) {
-    report["seconds"][stage] = seconds.wall;
-    report["cpu_seconds"][stage] = seconds.cpu;
-  }
-}
 
 void add_outcome(Json& report, const PreparationReport& preparation, const MethodReport& outcome) {
   const CavityReport& cavities = preparation.cavities;
@@ -151,9 +116,7 @@ ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& 
   times.emplace_back("total", total.elapsed());
   add_seconds(report, times);
   if (run.verify) report["verified"] = {{"pairs_before", *result.pairs_before}, {"pairs_after", *result.pairs_after}};
-  report["peak_memory_mb"] = peak_memory_mb();
-  report["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  report["version"] = version();
+  add_program(report);
   return result;
 }
 

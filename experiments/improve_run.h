@@ -8,7 +8,6 @@
 
 #include "smopt/improve/method.h"
 #include "smopt/improve/prepare.h"
-#include "smopt/mesh/triangle_mesh.h"
 #include "smopt/progress.h"
 
 namespace smopt::experiments {
@@ -33,9 +32,6 @@ struct ImproveRunResult {
 /// Reads, prepares, improves and writes a mesh. Nothing is written when anything fails.
 /// \throws InvalidInput (InvalidMesh) naming the input file; InvalidOption; Cancelled.
 ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& progress = {});
-
-/// `seconds` (wall) and `cpu_seconds` of the report: one number a stage, stages that did not run are 0.
-void add_seconds(nlohmann::ordered_json& report, const StageTimes& times);
 
 /// `removed`, `rounds`, `moves`, `stopped_because`, … of the report and of a record.
 void add_outcome(nlohmann::ordered_json& report, const PreparationReport& preparation, const MethodReport& outcome);

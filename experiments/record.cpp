@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "experiments/improve_run.h"
+#include "experiments/run_report.h"
 #include "experiments/machine.h"
 #include "smopt/version.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "experiments/improve_run.h"
+#include "experiments/generate_run.h"
 #include "experiments/machine.h"
 #include "smopt/error.h"
 #include "smopt/io/molecule.h"
@@ -21,7 +21,11 @@ void require_file(const Dataset& dataset) {
 
 StageTimes generate_once(const Dataset& dataset, GeneratedSurface& surface, const ProgressCallback& progress) {
   StageTimes times;
-  const Molecule molecule = timed(times, "read", [&] { return read_molecule(dataset.path); });
+  const Molecule molecule = timed(times, "read", [&] {
+    Molecule read = read_molecule(dataset.path);
+    raise_radii(read, GenerateRun().min_radius);  // as `smopt generate` does
+    return read;
+  });
   surface.atoms = molecule.atom_count();
   surface.mesh = timed(times, "generate", [&] { return gaussian_surface(molecule, dataset.surface, &surface.report, progress); });
   return times;

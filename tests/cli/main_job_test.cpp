@@ -61,7 +61,7 @@ TEST_F(MainJob, KeepsTheVolumeOfTheSurfaceWithoutItsCavities) {
 }
 
 TEST_F(MainJob, PlainLaplacianMakesPairsWhereSmoptMakesNone) {
-  run({"generate", apbs_molecule("bem/test_proteins/1a63.pqr").string(), "-o", path("surface.off")});
+  run({"generate", apbs_molecule("bem/test_proteins/1a63.pqr").string(), "-o", path("surface.off"), "--min-radius", "0"});
   const ProgramResult laplacian = run_smopt(
       {"improve", path("surface.off"), "-o", path("laplacian.off"), "--method", "laplacian", "--cavities", "delete", "--verify", "--json"});
   EXPECT_EQ(laplacian.exit_code, 1) << laplacian.err;
