@@ -19,7 +19,7 @@ constexpr double kCoarseSpacing = 1.5;
 constexpr double kEdgesCrossed = 1.5;
 
 /// What is added to the area that the atoms can have, for grids that happen to lie badly.
-constexpr double kMargin = 1.5;
+constexpr double kMargin = 1.1;
 
 /// A surface smaller than the spacing crosses six edges when there is a node inside.
 constexpr double kFewestVertices = 6;

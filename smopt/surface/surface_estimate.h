@@ -12,7 +12,7 @@ struct UniformSurface {
 };
 
 /// More vertices than the mesh will have, from the atoms alone: where n kernels sum up to c, one of them is at least c/n, so that the surface
-/// lies within a ball around each atom; all the balls' surfaces together, and half as much again, are taken for its area. Some hundred times too many for a protein.
+/// lies within a ball around each atom; all the balls' surfaces together, and a tenth more, are taken for its area. Some hundred times too many for a protein.
 /// A plane of random direction crosses 1.5/h² edges of a grid on each unit of its area.
 /// Cost: O(n).
 double most_vertices(const GaussianField& field, const UniformSurface& surface);
