@@ -9,9 +9,6 @@
 namespace smopt::experiments {
 namespace {
 
-/// Kernels are left out below this, as in `gaussian_surface`.
-constexpr double kLeastTerm = 1e-6;
-
 /// Spacings of the uniform grids, in units of the default one: what Richardson's extrapolation needs.
 constexpr double kSpacings[] = {1, 0.5, 0.25};
 
@@ -21,7 +18,7 @@ constexpr double kLeastSpacingWithDistances = 0.5;
 class Study {
  public:
   Study(const Molecule& molecule, MoleculeStudy& study, const StudyLog& log)
-      : molecule_(molecule), surface_(study.dataset.surface), field_(molecule, {surface_.decay, kLeastTerm}), study_(study), log_(log) {}
+      : molecule_(molecule), surface_(study.dataset.surface), field_(molecule, gaussian_field_options(surface_)), study_(study), log_(log) {}
 
   void add_adaptive(const std::vector<double>& errors) {
     std::optional<AdaptiveMesh> coarser;

@@ -9,8 +9,8 @@ struct Limit {
   double order = 0;     ///< seen in the three values; 2 is what the extrapolation takes it to be
 };
 
-/// Richardson's extrapolation of a quantity of second order (area and volume of a surface with vertices where φ crosses the edges of a grid)
-/// from its values at spacings 4h, 2h and h: from the last two, (4·fine − middle)/3.
+/// Richardson's extrapolation of a quantity of second order (area and volume of a surface with vertices where φ crosses the edges of a
+/// grid) from its values at spacings 4h, 2h and h: from the last two, (4·fine − middle)/3.
 Limit richardson_limit(double coarse, double middle, double fine);
 
 }  // namespace smopt::experiments

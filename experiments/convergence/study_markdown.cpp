@@ -4,8 +4,11 @@
 
 #include <string_view>
 
+#include "experiments/convergence/change_tables.h"
+#include "experiments/convergence/convergence_tables.h"
+#include "experiments/convergence/edge_ratio_bars.h"
 #include "experiments/convergence/embedded.h"
-#include "experiments/convergence/study_tables.h"
+#include "experiments/convergence/published_table.h"
 #include "experiments/tables/markdown.h"
 
 namespace smopt::experiments {

@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 
+#include "experiments/convergence/change_tables.h"
+#include "experiments/convergence/convergence_tables.h"
+#include "experiments/convergence/edge_ratio_bars.h"
 #include "experiments/convergence/molecule_study.h"
 #include "experiments/convergence/published.h"
+#include "experiments/convergence/published_table.h"
 #include "experiments/convergence/richardson.h"
 #include "experiments/convergence/study_json.h"
 #include "experiments/convergence/study_markdown.h"
-#include "experiments/convergence/study_tables.h"
 #include "smopt/error.h"
 #include "tests/support/files.h"
 
