@@ -36,4 +36,9 @@ std::filesystem::path apbs_molecule(std::string_view name) {
   return std::filesystem::exists(file) ? file : std::filesystem::path();
 }
 
+std::filesystem::path shared_molecule(std::string_view name) {
+  const std::filesystem::path file = std::filesystem::path(SMOPT_SOURCE_FOLDER).parent_path() / "shared/data/molecules" / name;
+  return std::filesystem::exists(file) ? file : std::filesystem::path();
+}
+
 }  // namespace smopt::testing

@@ -28,4 +28,7 @@ std::string bytes_of(const std::filesystem::path& path);
 /// A molecule of Debian's apbs-data ("misc/mache.pqr"), or an empty path where the package is not installed.
 std::filesystem::path apbs_molecule(std::string_view name);
 
+/// One of the large molecules that lie beside the project on some machines (`../shared/data/molecules`), or an empty path.
+std::filesystem::path shared_molecule(std::string_view name);
+
 }  // namespace smopt::testing

@@ -312,6 +312,23 @@ TEST_P(GaussianSurfaceOfMolecule, IsSoundAndTheSameTwice) {
   EXPECT_EQ(mesh.triangles, again.triangles);
 }
 
+class GaussianSurfaceOfLargeMolecule : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Shared, GaussianSurfaceOfLargeMolecule, ::testing::Values("connexin_2zw3.pqr.gz", "amylase_vhh_1kxq.pqr.gz"));
+
+TEST_P(GaussianSurfaceOfLargeMolecule, IsSoundFromBothSamplers) {
+  const std::filesystem::path file = testing::shared_molecule(GetParam());
+  if (file.empty()) GTEST_SKIP() << GetParam() << " is not there";
+  const Molecule molecule = read_molecule(file);
+  for (const double error : {0.0, 1.0}) {
+    GaussianSurfaceOptions options;
+    options.error = error;
+    const TriangleMesh mesh = gaussian_surface(molecule, options);
+    EXPECT_THAT(mesh, IsClosedManifold()) << error;
+    EXPECT_EQ(count_self_intersections(mesh), 0U) << error;
+    EXPECT_GT(enclosed_volume(mesh), 0) << error;
+  }
+}
+
 TEST(GaussianSurface, OfTheAcheMonomerHasAsManyVerticesAsThePaperSays) {
   const std::filesystem::path file = testing::apbs_molecule("misc/mache.pqr");
   if (file.empty()) GTEST_SKIP() << "apbs-data is not installed";
