@@ -31,12 +31,13 @@ double trilinear(const cube::CornerValues& values, const Vec3& t) {
 
 std::optional<double> interpolant_at(const AdaptivePartition& partition, const Vec3& x) {
   const auto& [lattice, forest] = partition;
-  const CellForest::Id leaf = forest.find(finest_place_at(lattice, x));
+  CellFinder finder(forest);
+  const CellForest::Id leaf = finder.find(finest_place_at(lattice, x)).id;
   if (leaf == CellForest::kNone) return std::nullopt;
   const CellPlace& place = forest.cell(leaf).place;
   const Vec3 low(place.at[0], place.at[1], place.at[2]);
   const Vec3 t = (x - lattice.origin) / lattice.edge(place.level) - low;
-  return trilinear(continuous_values(forest, leaf, surroundings_of(forest, leaf)), t);
+  return trilinear(continuous_values(finder, leaf, surroundings_of(finder, leaf)), t);
 }
 
 }  // namespace smopt::experiments

@@ -150,8 +150,9 @@ class Partitioner {
   [[nodiscard]] std::vector<Id> hanging_leaves() const {
     std::vector<char> has_coarser(forest_.cells().size(), 0);
     for_ranges_in_parallel(has_coarser.size(), [&](std::size_t begin, std::size_t end) {
+      CellFinder finder(forest_);
       for (auto id = static_cast<Id>(begin); id < static_cast<Id>(end); ++id)
-        has_coarser[id] = forest_.is_leaf(id) && forest_.cell(id).place.level > 0 && surroundings_of(forest_, id).has_coarser ? 1 : 0;
+        has_coarser[id] = forest_.is_leaf(id) && forest_.cell(id).place.level > 0 && surroundings_of(finder, id).has_coarser ? 1 : 0;
     });
     return leaves_where([&](Id id) { return has_coarser[id] != 0; });
   }
@@ -175,21 +176,22 @@ class Partitioner {
   [[nodiscard]] std::vector<Id> leaves_about(Id first_new, const std::vector<Id>& undecided) const {
     const auto end = static_cast<Id>(forest_.cells().size());
     std::vector<bool> is_about(end, false);
+    CellFinder finder(forest_);
     for (Id id = first_new; id < end; ++id) {
       is_about[id] = true;
       const CellPlace& place = forest_.cell(id).place;
       if (place.level > 0 && !place.is_first_child()) continue;  // one look for all eight
       const CellPlace around = place.level > 0 ? place.parent() : place;
-      for (int face = 0; face < cube::kFaces; ++face) mark(place_across_face(around, face), is_about);
-      for (int edge = 0; edge < cube::kEdges; ++edge) mark(place_across_edge(around, edge), is_about);
+      for (int face = 0; face < cube::kFaces; ++face) mark(place_across_face(around, face), finder, is_about);
+      for (int edge = 0; edge < cube::kEdges; ++edge) mark(place_across_edge(around, edge), finder, is_about);
     }
     for (const Id id : undecided) is_about[id] = true;
     return leaves_where([&](Id id) { return is_about[id]; });
   }
 
   /// Marks the cell at a place, or its children where it has some: they may be leaves.
-  void mark(const CellPlace& place, std::vector<bool>& is_about) const {
-    const Id id = forest_.find(place);
+  void mark(const CellPlace& place, CellFinder& finder, std::vector<bool>& is_about) const {
+    const Id id = finder.find(place).id;
     if (id == CellForest::kNone) return;
     if (forest_.is_leaf(id))
       is_about[id] = true;
@@ -202,7 +204,8 @@ class Partitioner {
     std::vector<Wishes> parts((leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
       const std::size_t end = std::min(leaves.size(), (part + 1) * kLeavesPerTask);
-      for (std::size_t i = part * kLeavesPerTask; i < end; ++i) examine(leaves[i], parts[part]);
+      CellFinder finder(forest_);
+      for (std::size_t i = part * kLeavesPerTask; i < end; ++i) examine(leaves[i], finder, parts[part]);
     });
     Wishes all;
     for (const Wishes& part : parts) {
@@ -216,19 +219,19 @@ class Partitioner {
     return all;
   }
 
-  void examine(Id id, Wishes& wishes) const {
+  void examine(Id id, CellFinder& finder, Wishes& wishes) const {
     const Cell& cell = forest_.cell(id);
     if (!cell.may_be_crossed && cell.place.level == 0) return;
     if (!is_fine_enough(cell)) {
       wishes.divide_for_error.push_back(id);
       return;
     }
-    const CellSurroundings around = surroundings_of(forest_, id);
+    const CellSurroundings around = surroundings_of(finder, id);
     if (cell.place.level > 0 && !is_balanced(cell.place, around, wishes)) {
       wishes.undecided.push_back(id);
       return;
     }
-    const cube::CornerValues values = continuous_values(forest_, id, around);
+    const cube::CornerValues values = continuous_values(finder, id, around);
     if (around.has_coarser && cell.may_be_crossed && hanging_error_is_too_large(cell, values)) {
       for_coarser_leaves(cell.place, around, 1, [&](Id coarser) { wishes.divide_for_hanging.push_back(coarser); });
       wishes.undecided.push_back(id);
@@ -263,8 +266,8 @@ class Partitioner {
   /// Asks for the roots that are missing around a cell, and to divide leaves that are larger by more than one level.
   bool is_balanced(const CellPlace& place, const CellSurroundings& around, Wishes& wishes) const {
     bool is_balanced = true;
-    const auto look = [&](Id id, const CellPlace& there) {
-      if (id == CellForest::kNone) {
+    const auto look = [&](const CellFinder::Found& found, const CellPlace& there) {
+      if (found.id == CellForest::kNone) {
         wishes.roots.push_back({there.at[0] >> there.level, there.at[1] >> there.level, there.at[2] >> there.level});
         is_balanced = false;
       }
@@ -281,11 +284,11 @@ class Partitioner {
   /// Visits the neighbours that are larger by `levels` or more.
   template <class Visit>
   void for_coarser_leaves(const CellPlace& place, const CellSurroundings& around, int levels, const Visit& visit) const {
-    const auto look = [&](Id id) {
-      if (id != CellForest::kNone && forest_.cell(id).place.level <= place.level - levels) visit(id);
+    const auto look = [&](const CellFinder::Found& found) {
+      if (found.id != CellForest::kNone && found.level <= place.level - levels) visit(found.id);
     };
-    for (const Id id : around.across_face) look(id);
-    for (const Id id : around.across_edge) look(id);
+    for (const CellFinder::Found& found : around.across_face) look(found);
+    for (const CellFinder::Found& found : around.across_edge) look(found);
   }
 
   // ---- what the look asked for ----

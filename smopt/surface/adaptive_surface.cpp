@@ -15,14 +15,12 @@
 #include "smopt/surface/disc_triangulation.h"
 #include "smopt/surface/hanging_loop.h"
 #include "smopt/surface/place_map.h"
+#include "smopt/surface/trilinear_block.h"
 
 namespace smopt {
 namespace {
 
 using Id = CellForest::Id;
-
-/// A vertex keeps this distance from the ends of its edge, in edges, so that it is strictly inside.
-constexpr double kLeastParameter = 1e-6;
 
 /// The leaves that are meshed together.
 constexpr std::size_t kLeavesPerBlock = 4096;
@@ -46,16 +44,16 @@ struct Node {
 /// Meshes some leaves, one after another.
 class LeafMesher {
  public:
-  explicit LeafMesher(const AdaptivePartition& partition) : forest_(partition.forest), lattice_(partition.lattice) {
+  explicit LeafMesher(const AdaptivePartition& partition) : finder_(partition.forest), lattice_(partition.lattice) {
     halvings_ = lattice_.finest_level + CellLattice::kHalvingsBelowCells;
     unit_ = lattice_.edge(halvings_);
   }
 
   void add_leaf(Id id) {
-    around_ = surroundings_of(forest_, id);
-    values_ = continuous_values(forest_, id, around_);
+    around_ = surroundings_of(finder_, id);
+    values_ = continuous_values(finder_, id, around_);
     if (!is_crossed(values_)) return;
-    place_ = forest_.cell(id).place;
+    place_ = finder_.forest().cell(id).place;
     const int level = place_.level;
     if (report_.surface_cells.size() <= static_cast<std::size_t>(level)) report_.surface_cells.resize(static_cast<std::size_t>(level) + 1);
     ++report_.surface_cells[static_cast<std::size_t>(level)];
@@ -204,7 +202,7 @@ class LeafMesher {
     for (std::size_t i = 0; i < loop.size(); ++i) mesh_.triangles.push_back({apex, ids_[loop[i]], ids_[loop[(i + 1) % loop.size()]]});
   }
 
-  const CellForest& forest_;
+  CellFinder finder_;
   const CellLattice& lattice_;
   int halvings_ = 0;
   double unit_ = 1;

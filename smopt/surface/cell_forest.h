@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "smopt/surface/cube.h"
@@ -42,7 +43,7 @@ class CellForest {
   [[nodiscard]] Id first_child(Id id) const { return first_child_[id]; }
   /// Memory of a cell and of what is kept about it: vectors may be half full.
   [[nodiscard]] static constexpr double bytes_per_cell() { return 2 * (sizeof(Cell) + sizeof(Id)); }
-  /// The cell at this place, or the leaf it would lie in; kNone where no root is kept.
+  /// The cell at this place, or the leaf it would lie in; kNone where no root is kept. See `CellFinder` for many that are near each other.
   [[nodiscard]] Id find(const CellPlace& place) const;
 
   /// \pre there is no such root; its level is 0.
@@ -54,6 +55,32 @@ class CellForest {
   std::vector<Cell> cells_;
   std::vector<Id> first_child_;  ///< apart from the cells: the way down a tree touches nothing else
   PlaceMap<3> roots_;
+
+  friend class CellFinder;
+};
+
+/// Finds cells that are near each other: the 27 roots about the one that was asked for last are remembered. One for each thread; the forest must
+/// outlive it, and not grow meanwhile.
+class CellFinder {
+ public:
+  explicit CellFinder(const CellForest& forest) : forest_(forest) {}
+
+  [[nodiscard]] const CellForest& forest() const { return forest_; }
+  /// A cell and its level, which is known from the way to it.
+  struct Found {
+    CellForest::Id id = CellForest::kNone;
+    int level = 0;
+  };
+  /// As `CellForest::find`. Cost: O(level) as long as the places stay near each other.
+  [[nodiscard]] Found find(const CellPlace& place);
+
+ private:
+  using Root = std::array<std::int32_t, 3>;
+  void remember_roots_about(const Root& root);
+
+  const CellForest& forest_;
+  Root middle_ = {std::numeric_limits<std::int32_t>::min(), 0, 0};
+  std::array<CellForest::Id, 27> roots_{};
 };
 
 }  // namespace smopt

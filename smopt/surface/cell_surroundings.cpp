@@ -16,7 +16,7 @@ Node node_at(const CellPlace& place, int corner) {
 /// Follows the rule for hanging nodes through the levels.
 class NodeValues {
  public:
-  explicit NodeValues(const CellForest& forest) : forest_(forest) {}
+  explicit NodeValues(CellFinder& finder) : finder_(finder), forest_(finder.forest()) {}
 
   [[nodiscard]] double at_corner(CellForest::Id id, int corner) const {
     const CellForest::Cell& cell = forest_.cell(id);
@@ -40,7 +40,7 @@ class NodeValues {
     if (std::popcount(odd) == 3) return std::nullopt;
     for (unsigned side = 0; side < cube::kCorners; ++side) {
       if ((side & odd) != 0) continue;  // on an odd axis there is one cell, on the others one on each side
-      const CellForest::Id id = forest_.find(coarser_cell(node, level, side));
+      const CellForest::Id id = finder_.find(coarser_cell(node, level, side)).id;
       if (id == CellForest::kNone || !forest_.is_leaf(id)) continue;
       return mean_of_corners(id, side, odd);
     }
@@ -63,20 +63,24 @@ class NodeValues {
     return 0.25 * (sum + (at_corner(id, static_cast<int>(first | v)) + at_corner(id, static_cast<int>(first | u | v))));
   }
 
+  CellFinder& finder_;
   const CellForest& forest_;
 };
 
 }  // namespace
 
-CellSurroundings surroundings_of(const CellForest& forest, CellForest::Id leaf) {
+CellSurroundings surroundings_of(CellFinder& finder, CellForest::Id leaf) {
+  const CellForest& forest = finder.forest();
   const CellPlace& place = forest.cell(leaf).place;
   CellSurroundings around;
   const auto look = [&](const CellPlace& there, unsigned& split, unsigned bits) {
-    const CellForest::Id id = forest.find(there);
-    if (id == CellForest::kNone) return id;
-    if (forest.cell(id).place.level < place.level) around.has_coarser = true;
-    if (!forest.is_leaf(id)) split |= bits;
-    return id;
+    const CellFinder::Found found = finder.find(there);
+    if (found.id == CellForest::kNone) return found;
+    if (found.level < place.level)
+      around.has_coarser = true;
+    else if (!forest.is_leaf(found.id))
+      split |= bits;
+    return found;
   };
   for (int face = 0; face < cube::kFaces; ++face)
     around.across_face[static_cast<std::size_t>(face)] = look(place_across_face(place, face), around.split_faces, 1U << face);
@@ -87,9 +91,9 @@ CellSurroundings surroundings_of(const CellForest& forest, CellForest::Id leaf) 
   return around;
 }
 
-cube::CornerValues continuous_values(const CellForest& forest, CellForest::Id leaf, const CellSurroundings& around) {
-  if (!around.has_coarser) return forest.cell(leaf).values;
-  const NodeValues values(forest);
+cube::CornerValues continuous_values(CellFinder& finder, CellForest::Id leaf, const CellSurroundings& around) {
+  if (!around.has_coarser) return finder.forest().cell(leaf).values;
+  const NodeValues values(finder);
   cube::CornerValues corners;
   for (int corner = 0; corner < cube::kCorners; ++corner) corners[corner] = values.at_corner(leaf, corner);
   return corners;

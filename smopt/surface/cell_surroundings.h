@@ -8,8 +8,8 @@ namespace smopt {
 
 /// The cells across the faces and edges of a leaf: of its own level, or the coarser leaf that covers the place, or none.
 struct CellSurroundings {
-  std::array<CellForest::Id, cube::kFaces> across_face{};
-  std::array<CellForest::Id, cube::kEdges> across_edge{};
+  std::array<CellFinder::Found, cube::kFaces> across_face{};
+  std::array<CellFinder::Found, cube::kEdges> across_edge{};
   unsigned split_faces = 0;  ///< bits: faces behind which the cells are smaller
   unsigned split_edges = 0;  ///< bits: edges that smaller cells have in two halves
   bool has_coarser = false;  ///< one of the cells is of a lower level
@@ -30,11 +30,11 @@ inline CellPlace place_across_edge(const CellPlace& place, int edge) {
   return other;
 }
 
-CellSurroundings surroundings_of(const CellForest& forest, CellForest::Id leaf);
+CellSurroundings surroundings_of(CellFinder& finder, CellForest::Id leaf);
 
 /// Values at the corners of a leaf that make the interpolant continuous over the whole partition: a corner in the middle of a coarser leaf's
 /// edge or face has the mean of that edge's or face's ends instead of its own value.
 /// \pre cells that share a face or an edge differ by one level at most.
-cube::CornerValues continuous_values(const CellForest& forest, CellForest::Id leaf, const CellSurroundings& around);
+cube::CornerValues continuous_values(CellFinder& finder, CellForest::Id leaf, const CellSurroundings& around);
 
 }  // namespace smopt

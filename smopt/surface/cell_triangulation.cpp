@@ -5,6 +5,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "smopt/surface/plain_cells.h"
+
 namespace smopt {
 namespace {
 
@@ -23,34 +25,12 @@ double area(std::span<const Vec3> points, const Triangles& triangles) {
 
 // ---- cells without ambiguous face ----
 
-PatchTriangle fan_triangle(Loop loop, std::size_t apex, std::size_t i) {
-  return {loop[apex], loop[(apex + i) % loop.size()], loop[(apex + i + 1) % loop.size()]};
-}
-
-double fan_area(std::span<const Vec3> points, Loop loop, std::size_t apex) {
-  double sum = 0;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += area(points, fan_triangle(loop, apex, i));
-  return sum;
-}
-
-std::size_t best_fan_apex(std::span<const Vec3> points, Loop loop) {
-  if (loop.size() == 3) return 0;
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  const std::size_t different_fans = loop.size() == 4 ? 2 : loop.size();
-  for (std::size_t apex = 0; apex < different_fans; ++apex) {
-    const double size = fan_area(points, loop, apex);
-    if (size < least) {
-      least = size;
-      best = apex;
-    }
-  }
-  return best;
-}
-
 void append_best_fan(Loop loop, CellPatch& patch) {
-  const std::size_t apex = best_fan_apex(patch.points, loop);
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) patch.triangles.push_back(fan_triangle(loop, apex, i));
+  std::array<Vec3, cube::kEdges> corners;
+  for (std::size_t i = 0; i < loop.size(); ++i) corners[i] = patch.points[loop[i]];
+  const std::size_t apex = best_fan_apex({corners.data(), loop.size()});
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+    patch.triangles.push_back({loop[apex], loop[(apex + i) % loop.size()], loop[(apex + i + 1) % loop.size()]});
 }
 
 // ---- candidates for one disc or annulus ----

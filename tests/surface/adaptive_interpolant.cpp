@@ -39,7 +39,8 @@ void fill_gaps(ScalarGrid& grid) {
 }  // namespace
 
 double interpolant_in_leaf(const AdaptivePartition& partition, CellForest::Id leaf, const Vec3& place) {
-  return trilinear(continuous_values(partition.forest, leaf, surroundings_of(partition.forest, leaf)), place);
+  CellFinder finder(partition.forest);
+  return trilinear(continuous_values(finder, leaf, surroundings_of(finder, leaf)), place);
 }
 
 Vec3 position_in_leaf(const AdaptivePartition& partition, CellForest::Id leaf, const Vec3& place) {
@@ -70,7 +71,8 @@ ScalarGrid sampled_interpolant(const AdaptivePartition& partition, int halvings)
   grid.values.assign(grid.node_count(), std::nan(""));
   for_each_leaf(partition, [&](CellForest::Id leaf) {
     const CellPlace& place = partition.forest.cell(leaf).place;
-    const cube::CornerValues values = continuous_values(partition.forest, leaf, surroundings_of(partition.forest, leaf));
+    CellFinder finder(partition.forest);
+    const cube::CornerValues values = continuous_values(finder, leaf, surroundings_of(finder, leaf));
     const int n = 1 << (finest - place.level);
     for (int k = 0; k <= n; ++k) {
       for (int j = 0; j <= n; ++j) {
