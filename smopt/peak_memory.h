@@ -1,8 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
-#include <cstdint>
 #include <fstream>
 #include <string>
 
@@ -22,11 +19,6 @@ inline double peak_memory_mb_of(const std::string& process) {
 /// The same of this process.
 inline double peak_memory_mb() {
   return peak_memory_mb_of("self");
-}
-
-/// The machine's memory, bytes.
-inline std::uint64_t physical_memory_bytes() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace smopt

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "smopt/error.h"
-#include "smopt/peak_memory.h"
+#include "smopt/physical_memory.h"
 #include "smopt/surface/adaptive_estimate.h"
 #include "smopt/surface/field_blocks.h"
 #include "smopt/surface/uniform_surface.h"

@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "smopt/error.h"
-#include "smopt/peak_memory.h"
+#include "smopt/physical_memory.h"
 #include "smopt/surface/block_mesh.h"
 #include "smopt/surface/field_blocks.h"
 #include "smopt/surface/gaussian_field.h"
