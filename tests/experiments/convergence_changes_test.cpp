@@ -82,6 +82,18 @@ TEST(TopologyChanges, AreFoundWhereTwoAtomsPartAndNowhereElse) {
   EXPECT_LT(changes.front().cells.size(), 10U);
 }
 
+TEST(TopologyChanges, InAPlaneAreInTheCellsOnBothSides) {
+  const std::vector<TopologyChange> changes = topology_changes({}, std::vector<EulerPart>{{{2, 1, 1}, 2}});
+  ASSERT_THAT(changes, SizeIs(1));
+  EXPECT_THAT(changes.front().cells, ElementsAre(LatticeCell{0, 0, 0}, LatticeCell{1, 0, 0}));
+}
+
+TEST(TopologyChanges, FarApartAreTwoAndSideBySideCancel) {
+  const auto after = [](std::int32_t x) { return std::vector<EulerPart>{{{1, 1, 1}, 2}, {{x, 1, 1}, -2}}; };
+  EXPECT_THAT(topology_changes({}, after(41)), SizeIs(2));
+  EXPECT_THAT(topology_changes({}, after(3)), SizeIs(0));
+}
+
 TEST(TopologyChanges, OfASurfaceThatMovesAreNone) {
   CellLattice lattice;
   lattice.origin = Vec3::Constant(-10.03);
