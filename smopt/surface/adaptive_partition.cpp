@@ -243,7 +243,16 @@ class Partitioner {
 
   /// Whether the surface in the cell is near enough to φ = c.
   [[nodiscard]] bool is_fine_enough(const Cell& cell) const {
-    return !cell.may_be_crossed || cell.place.level == lattice_.finest_level || is_near_by_slope(cell, 0);
+    return !cell.may_be_crossed || cell.place.level == lattice_.finest_level ||
+           (is_near_by_slope(cell, 0) && is_single_valued_with_field(cell, cell.values));
+  }
+
+  /// Whether there is an axis along which both φ, where φ = c may pass, and the interpolant are monotone: then both surfaces are graphs over one
+  /// plane, and none has a handle, a fold or a speck that the other has not.
+  static bool is_single_valued_with_field(const Cell& cell, const cube::CornerValues& values) {
+    unsigned axes = 0;
+    for (int axis = 0; axis < 3; ++axis) axes |= cube::monotone_along(values, axis);
+    return (axes & cell.monotone_axes) != 0;
   }
 
   [[nodiscard]] bool is_near_by_slope(const Cell& cell, double hanging_error) const {
@@ -259,7 +268,7 @@ class Partitioner {
       largest = std::max(largest, std::abs(values[i] - cell.values[i]));
       keep_signs = keep_signs && is_inside(values[i]) == is_inside(cell.values[i]);
     }
-    if (is_near_by_slope(cell, largest)) return false;
+    if (is_near_by_slope(cell, largest) && is_single_valued_with_field(cell, values)) return false;
     return cell.place.level < lattice_.finest_level || !keep_signs;
   }
 

@@ -26,7 +26,8 @@ struct AdaptivePartitionReport {
 ///
 /// Cubes start with an edge of 1.2/√d: a kernel's width is 0.7/√d. A cube is judged by its 27 samples (at half its edge). It stays as it is
 /// - when φ = c cannot pass: every sample is farther from c than the interpolant's error; or
-/// - when the interpolant's error over the least slope of φ, both from the samples, is at most `error`; or
+/// - when the interpolant's error over the least slope of φ, both from the samples, is at most `error`, and along one axis both φ and the
+///   interpolant are monotone, so that their surfaces are single-valued along it; or
 /// - where φ may be flat (near its critical points), when its diagonal is at most `error`: a cube whose corners have both signs holds a point
 ///   of φ = c.
 /// Then cubes are divided until those that share a face or an edge differ by one halving at most; until the values that hanging nodes get

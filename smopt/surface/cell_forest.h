@@ -33,6 +33,8 @@ class CellForest {
     float error = 0;              ///< largest |φ − interpolant| in the cell, estimated
     float slope = 0;              ///< least |∇φ| in the cell, estimated, 1/Å; 0 where φ may be flat
     cube::CornerValues values{};  ///< φ − c at the corners
+    /// Bits: axes along which φ grows wherever φ = c may pass in the cell (0 to 2), and along which it falls (3 to 5); estimated.
+    std::uint8_t monotone_axes = 0;
     bool may_be_crossed = false;  ///< φ = c may pass through the cell
   };
 

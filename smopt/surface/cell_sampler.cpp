@@ -79,6 +79,13 @@ class Octant {
     return kErrorMargin * largest;
   }
 
+  /// Bits: axes along which all differences are positive (0 to 2), or negative (3 to 5).
+  [[nodiscard]] unsigned monotone_axes() const {
+    unsigned axes = 0;
+    for (int axis = 0; axis < 3; ++axis) axes |= cube::monotone_along(values_, axis);
+    return axes;
+  }
+
   /// The least |∇φ|: along each axis the least of the differences, or 0 where they have both signs.
   [[nodiscard]] double least_slope(double sample_spacing) const {
     return Vec3(least_difference(0), least_difference(1), least_difference(2)).norm() / sample_spacing;
@@ -101,15 +108,17 @@ class Octant {
   cube::CornerValues interpolant_{};
 };
 
-/// Finds the octant in which the surface may be farthest off.
+/// Finds the octant in which the surface may be farthest off, and the axes along which φ is monotone in all octants that may be crossed.
 void judge(const Samples& f, double sample_spacing, CellForest::Cell& cell) {
   const Samples interpolant = interpolant_of(f);
   const double between_samples = kErrorBetweenSamples * kErrorMargin * largest_difference(f, interpolant);
   double largest = -1;
+  unsigned monotone_axes = cube::kAllAxes;
   for (int number = 0; number < cube::kCorners; ++number) {
     const Octant octant(f, interpolant, number);
     if (!octant.may_be_crossed(between_samples)) continue;
     cell.may_be_crossed = true;
+    monotone_axes &= octant.monotone_axes();
     const double error = octant.error();
     const double slope = octant.least_slope(sample_spacing);
     const double distance = slope > 0 ? error / slope : HUGE_VAL;
@@ -118,6 +127,7 @@ void judge(const Samples& f, double sample_spacing, CellForest::Cell& cell) {
     cell.error = static_cast<float>(error);
     cell.slope = static_cast<float>(slope);
   }
+  cell.monotone_axes = static_cast<std::uint8_t>(monotone_axes);
 }
 
 }  // namespace

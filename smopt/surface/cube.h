@@ -60,6 +60,19 @@ inline constexpr unsigned faces_of_edge(int edge) {
   return (1U << (2 * u + (edge & 1))) | (1U << (2 * v + ((edge >> 1) & 1)));
 }
 
+/// Bits of the axes along which the trilinear interpolant of corner values grows in the whole cube (axis), or falls (axis + 3).
+inline constexpr unsigned kAllAxes = 0x3f;
+inline unsigned monotone_along(const CornerValues& values, int axis) {
+  bool grows = true;
+  bool falls = true;
+  for (int corner = 0; corner < kCorners; ++corner) {
+    if ((corner >> axis & 1) != 0) continue;
+    grows = grows && values[corner | 1 << axis] > values[corner];
+    falls = falls && values[corner | 1 << axis] < values[corner];
+  }
+  return (unsigned{grows} | unsigned{falls} << 3) << axis;
+}
+
 /// Whether a straight line between two points on these edges lies in a face of the cube.
 inline constexpr bool share_face(int edge, int other) {
   return (faces_of_edge(edge) & faces_of_edge(other)) != 0;
