@@ -75,7 +75,7 @@ void add_surface_options(CLI::App& command, Arguments& arguments) {
       ->excludes(spacing);
   command
       .add_option("--max-memory", surface.max_memory_bytes,
-                  "refuse, before the work, what would need more memory than this (such as 500MB or 4GB; default: no limit)")
+                  "refuse, before the work, what would need more memory than this (such as 500MB or 4GB; default: what the machine has)")
       ->transform(CLI::AsSizeValue(false));
 }
 
