@@ -81,7 +81,7 @@ class CellFinder {
   void remember_roots_about(const Root& root);
 
   const CellForest& forest_;
-  Root middle_ = {std::numeric_limits<std::int32_t>::min(), 0, 0};
+  Root middle_ = {std::numeric_limits<std::int32_t>::min() / 2, 0, 0};  // of none yet; its neighbours are numbers too
   std::array<CellForest::Id, 27> roots_{};
 };
 
