@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "baselines/baselines.h"
 #include "experiments/improve_run.h"
@@ -161,12 +162,13 @@ class Generation {
     const ProjectionReport projection =
         timed(times_, "projection", [&] { return project_onto_level_set(mesh_, field(), run_.surface.isovalue, options, progress_); });
     result_.report["projection"] = projection_json(projection);
+    distance_ = projection.after;
   }
 
   void measure_distance() {
-    const LevelSetDistance distance =
-        timed(times_, "distance", [&] { return distance_to_level_set(field(), run_.surface.isovalue, mesh_.points); });
-    result_.report["distance_to_level_set"] = distance_json(distance);
+    if (!distance_)
+      distance_ = timed(times_, "distance", [&] { return distance_to_level_set(field(), run_.surface.isovalue, mesh_.points); });
+    result_.report["distance_to_level_set"] = distance_json(*distance_);
   }
 
   [[nodiscard]] GaussianField field() const { return GaussianField(molecule_, gaussian_field_options(run_.surface)); }
@@ -183,6 +185,7 @@ class Generation {
   Molecule molecule_;
   TriangleMesh mesh_;
   StageTimes times_;
+  std::optional<LevelSetDistance> distance_;  // of the mesh as it is, once it is known
   GenerateRunResult result_;
 };
 
