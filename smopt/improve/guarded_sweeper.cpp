@@ -8,9 +8,7 @@ namespace smopt {
 namespace {
 
 void add(RoundReport& round, const RoundReport& part) {
-  round.moves.accepted += part.moves.accepted;
-  round.moves.shortened += part.moves.shortened;
-  round.moves.refused += part.moves.refused;
+  round.moves += part.moves;
   round.stuck += part.stuck;
   round.longest_move = std::max(round.longest_move, part.longest_move);
 }

@@ -72,9 +72,7 @@ class Projector {
     const RoundReport round = sweeper_.sweep(
         sweeper_.schedule(vertices), [this](VertexId v) { return steps_[v]; }, report);
     ++report_.rounds;
-    report_.moves.accepted += round.moves.accepted;
-    report_.moves.shortened += round.moves.shortened;
-    report_.moves.refused += round.moves.refused;
+    report_.moves += round.moves;
     has_moved_ = round.moves.accepted > 0;
   }
 

@@ -9,6 +9,13 @@ struct MoveCounts {
   std::size_t accepted = 0;   ///< moves made, the shortened ones included
   std::size_t shortened = 0;  ///< of these, made with a halved step
   std::size_t refused = 0;    ///< not made, whatever the step
+
+  MoveCounts& operator+=(const MoveCounts& other) {
+    accepted += other.accepted;
+    shortened += other.shortened;
+    refused += other.refused;
+    return *this;
+  }
 };
 
 /// One sweep over some vertices.

@@ -78,9 +78,7 @@ class Smoother {
       report_.rounds.push_back(sweeper_.sweep(schedule, proposed, report));
     }
     const MoveCounts& moves = report_.rounds.back().moves;
-    report_.moves.accepted += moves.accepted;
-    report_.moves.shortened += moves.shortened;
-    report_.moves.refused += moves.refused;
+    report_.moves += moves;
     return moves.accepted > 0;
   }
 

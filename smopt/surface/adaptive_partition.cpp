@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "smopt/parallel.h"
 #include "smopt/surface/cell_surroundings.h"
 #include "smopt/surface/face_links.h"
 #include "smopt/surface/hanging_loop.h"
+#include "smopt/surface/positive_option.h"
 
 namespace smopt {
 namespace {
@@ -32,7 +32,7 @@ constexpr double kMostNodes = 1 << 29;
 constexpr double kLeastEdgeRelative = 1e-9;
 
 CellLattice lattice_for(const GaussianField& field, double error) {
-  if (!(std::isfinite(error) && error > 0)) throw InvalidOption(fmt::format("the error must be positive and finite, not {}", error));
+  require_positive(error, "the error");
   CellLattice lattice;
   lattice.root_edge = kRootEdgeTimesRootDecay / std::sqrt(field.decay());
   lattice.finest_level = std::max(0, static_cast<int>(std::ceil(std::log2(lattice.root_edge * std::sqrt(3.0) / error))));
@@ -250,9 +250,7 @@ class Partitioner {
   /// Whether there is an axis along which both φ, where φ = c may pass, and the interpolant are monotone: then both surfaces are graphs over one
   /// plane, and none has a handle, a fold or a speck that the other has not.
   static bool is_single_valued_with_field(const Cell& cell, const cube::CornerValues& values) {
-    unsigned axes = 0;
-    for (int axis = 0; axis < 3; ++axis) axes |= cube::monotone_along(values, axis);
-    return (axes & cell.monotone_axes) != 0;
+    return (cube::monotone_axes(values) & cell.monotone_axes) != 0;
   }
 
   [[nodiscard]] bool is_near_by_slope(const Cell& cell, double hanging_error) const {

@@ -50,10 +50,12 @@ class LeafMesher {
   }
 
   void add_leaf(Id id) {
+    const CellForest::Cell& cell = finder_.forest().cell(id);
+    if (!cell.may_be_crossed && cell.place.level == 0) return;  // no corner hangs on a coarser cell, and all have one sign
     around_ = surroundings_of(finder_, id);
     values_ = continuous_values(finder_, id, around_);
     if (!is_crossed(values_)) return;
-    place_ = finder_.forest().cell(id).place;
+    place_ = cell.place;
     const int level = place_.level;
     if (report_.surface_cells.size() <= static_cast<std::size_t>(level)) report_.surface_cells.resize(static_cast<std::size_t>(level) + 1);
     ++report_.surface_cells[static_cast<std::size_t>(level)];
@@ -101,14 +103,17 @@ class LeafMesher {
   VertexId vertex_between(const Node& low, const Node& high, int axis) {
     const auto next = static_cast<std::int32_t>(mesh_.points.size());
     const std::int32_t vertex = vertex_on_.find_or_add({low.number[0], low.number[1], low.number[2], axis}, next);
-    if (vertex == next) mesh_.points.push_back(zero_between(low, high, axis));
+    if (vertex == next) mesh_.points.push_back(zero_on_edge(low, high, axis));
     return static_cast<VertexId>(vertex);
   }
 
-  [[nodiscard]] Vec3 zero_between(const Node& low, const Node& high, int axis) const {
-    Vec3 position(coordinate(0, low.number[0]), coordinate(1, low.number[1]), coordinate(2, low.number[2]));
-    const double t = std::clamp(low.value / (low.value - high.value), kLeastParameter, 1 - kLeastParameter);
-    position[axis] += t * (coordinate(axis, high.number[axis]) - position[axis]);
+  [[nodiscard]] Vec3 position_of(const std::array<std::int32_t, 3>& number) const {
+    return {coordinate(0, number[0]), coordinate(1, number[1]), coordinate(2, number[2])};
+  }
+
+  [[nodiscard]] Vec3 zero_on_edge(const Node& low, const Node& high, int axis) const {
+    Vec3 position = position_of(low.number);
+    position[axis] += zero_between(low.value, high.value) * (coordinate(axis, high.number[axis]) - position[axis]);
     return position;
   }
 
@@ -148,7 +153,7 @@ class LeafMesher {
   void mesh_simple_cell() {
     const CellLoops loops = trace_cell_loops(values_);
     std::optional<Tunnel> tunnel = find_tunnel(values_, loops);
-    if (tunnel) move_to_cell(tunnel->waist);
+    if (tunnel) tunnel->move_waist_to(position_of(corner_number(0)), position_of(corner_number(cube::kCorners - 1)));
     std::array<Vec3, cube::kEdges> positions;
     for (int n = 0; n < loops.begin[loops.count]; ++n) {
       const int edge = loops.edges[n];
@@ -160,17 +165,6 @@ class LeafMesher {
     for (const auto& [a, b, c] : patch_.triangles) mesh_.triangles.push_back({ids_[a], ids_[b], ids_[c]});
     if (loops.ambiguous_faces != 0 || loops.count > 1) ++report_.ambiguous_cells;
     if (tunnel) ++report_.tunnel_cells;
-  }
-
-  void move_to_cell(std::array<Vec3, 6>& points) const {
-    const auto low = corner_number(0);
-    const auto high = corner_number(cube::kCorners - 1);
-    for (Vec3& p : points) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double start = coordinate(axis, low[axis]);
-        p[axis] = start + p[axis] * (coordinate(axis, high[axis]) - start);
-      }
-    }
   }
 
   // ---- cells with faces cut in four ----

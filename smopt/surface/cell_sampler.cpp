@@ -80,11 +80,7 @@ class Octant {
   }
 
   /// Bits: axes along which all differences are positive (0 to 2), or negative (3 to 5).
-  [[nodiscard]] unsigned monotone_axes() const {
-    unsigned axes = 0;
-    for (int axis = 0; axis < 3; ++axis) axes |= cube::monotone_along(values_, axis);
-    return axes;
-  }
+  [[nodiscard]] unsigned monotone_axes() const { return cube::monotone_axes(values_); }
 
   /// The least |∇φ|: along each axis the least of the differences, or 0 where they have both signs.
   [[nodiscard]] double least_slope(double sample_spacing) const {

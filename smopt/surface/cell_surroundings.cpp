@@ -33,8 +33,8 @@ class NodeValues {
  private:
   static unsigned odd_axes(const Node& node) { return static_cast<unsigned>((node[0] & 1) | (node[1] & 1) << 1 | (node[2] & 1) << 2); }
 
-  /// Of a node that is in the middle of an edge or a face of the next coarser grid, where one of the cells around that is a leaf. The
-  /// coarser cells around it have their corners at the even places next to the node; `corner` tells which corner of a cell that is.
+  /// Of a node that is in the middle of an edge or a face of the next coarser grid, where one of the cells around that is a leaf. Bit a of
+  /// `side` tells at which end of the coarser cell the node is on axis a.
   [[nodiscard]] std::optional<double> hanging_value(const Node& node, int level) const {
     const unsigned odd = odd_axes(node);
     if (std::popcount(odd) == 3) return std::nullopt;

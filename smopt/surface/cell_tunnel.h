@@ -13,6 +13,11 @@ struct Tunnel {
   int first_loop = 0;
   int second_loop = 0;
   std::array<Vec3, 6> waist;  ///< a closed polygon around the tunnel between its loops; in units of the cube, strictly inside it
+
+  /// From units of the cube into the cell between these corners.
+  void move_waist_to(const Vec3& low, const Vec3& high) {
+    for (Vec3& p : waist) p = low + p.cwiseProduct(high - low);
+  }
 };
 
 /// The two loops of a cell that are the ends of one tunnel (an annulus of the level set); all other loops bound discs.

@@ -60,8 +60,10 @@ inline constexpr unsigned faces_of_edge(int edge) {
   return (1U << (2 * u + (edge & 1))) | (1U << (2 * v + ((edge >> 1) & 1)));
 }
 
-/// Bits of the axes along which the trilinear interpolant of corner values grows in the whole cube (axis), or falls (axis + 3).
+/// All bits of `monotone_axes`.
 inline constexpr unsigned kAllAxes = 0x3f;
+
+/// The bit of an axis along which the trilinear interpolant of corner values grows in the whole cube (axis), or falls (axis + 3).
 inline unsigned monotone_along(const CornerValues& values, int axis) {
   bool grows = true;
   bool falls = true;
@@ -71,6 +73,11 @@ inline unsigned monotone_along(const CornerValues& values, int axis) {
     falls = falls && values[corner | 1 << axis] < values[corner];
   }
   return (unsigned{grows} | unsigned{falls} << 3) << axis;
+}
+
+/// The bits of all axes.
+inline unsigned monotone_axes(const CornerValues& values) {
+  return monotone_along(values, 0) | monotone_along(values, 1) | monotone_along(values, 2);
 }
 
 /// Whether a straight line between two points on these edges lies in a face of the cube.

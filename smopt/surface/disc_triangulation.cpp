@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "smopt/geometry/predicates.h"
 #include "smopt/geometry/triangle_shape.h"

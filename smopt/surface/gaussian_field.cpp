@@ -13,6 +13,7 @@
 #include "smopt/error.h"
 #include "smopt/parallel.h"
 #include "smopt/surface/kernel_adder.h"
+#include "smopt/surface/positive_option.h"
 
 namespace smopt {
 namespace {
@@ -24,8 +25,7 @@ constexpr double kLargestExponent = 300;
 constexpr double kMostParts = 1024;
 
 void check_options(const GaussianFieldOptions& options) {
-  if (!(std::isfinite(options.decay) && options.decay > 0))
-    throw InvalidOption(fmt::format("decay must be positive and finite, not {}", options.decay));
+  require_positive(options.decay, "decay");
   if (!(options.least_term > 0 && options.least_term < 1))
     throw InvalidOption(fmt::format("the least term must be between 0 and 1, not {}", options.least_term));
 }

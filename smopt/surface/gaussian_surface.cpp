@@ -11,6 +11,7 @@
 #include "smopt/physical_memory.h"
 #include "smopt/surface/adaptive_estimate.h"
 #include "smopt/surface/field_blocks.h"
+#include "smopt/surface/positive_option.h"
 #include "smopt/surface/uniform_surface.h"
 
 namespace smopt {
@@ -19,10 +20,6 @@ namespace {
 /// A kernel is left out where it is below this part of the isovalue (of 1 for isovalues above 1): where the field falls by 1 in an
 /// ångström, as it does around atoms, each moves the surface by less than a millionth of an ångström.
 constexpr double kLeastTermRelative = 1e-6;
-
-void require_positive(double value, const char* name) {
-  if (!(std::isfinite(value) && value > 0)) throw InvalidOption(fmt::format("{} must be positive and finite, not {}", name, value));
-}
 
 /// The largest value at the nodes of the grid.
 double maximum_at_nodes(const GaussianField& field, double spacing) {

@@ -136,8 +136,7 @@ class BlockSweep {
     const std::size_t node = grid_.index(at[0], at[1], at[2]);
     const std::size_t next = node + (axis == 0 ? 1 : axis == 1 ? nx_ : nx_ * ny_);
     Vec3 position(grid_.coordinate(0, at[0]), grid_.coordinate(1, at[1]), grid_.coordinate(2, at[2]));
-    const double low = value(node);
-    const double t = std::clamp(low / (low - value(next)), kLeastParameter, 1 - kLeastParameter);
+    const double t = zero_between(value(node), value(next));
     position[axis] += t * (grid_.coordinate(axis, at[axis] + 1) - position[axis]);
     const VertexId vertex = add_point(position);
     if (is_in_outer_face((axis + 1) % 3, at) || is_in_outer_face((axis + 2) % 3, at)) mesh_.shared.push_back({name_of(axis, at), vertex});
@@ -215,7 +214,7 @@ class BlockSweep {
     const cube::CornerValues values = corner_values(grid_.index(cell[0], cell[1], cell[2]));
     const CellLoops loops = trace_cell_loops(values);
     std::optional<Tunnel> tunnel = find_tunnel(values, loops);
-    if (tunnel) move_to_cell(tunnel->waist, cell);
+    if (tunnel) tunnel->move_waist_to(corner_of(cell, 0), corner_of(cell, 1));
     collect_vertices(loops, cell[1] * nx_ + cell[0]);
     triangulate_cell(positions_, loops, tunnel, patch_);
     append_patch();
@@ -230,13 +229,9 @@ class BlockSweep {
     return values;
   }
 
-  void move_to_cell(std::array<Vec3, 6>& points, const Node& cell) const {
-    for (Vec3& p : points) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double low = grid_.coordinate(axis, cell[axis]);
-        p[axis] = low + p[axis] * (grid_.coordinate(axis, cell[axis] + 1) - low);
-      }
-    }
+  /// The lowest (0) or the highest (1) corner of a cell.
+  [[nodiscard]] Vec3 corner_of(const Node& cell, std::size_t end) const {
+    return {grid_.coordinate(0, cell[0] + end), grid_.coordinate(1, cell[1] + end), grid_.coordinate(2, cell[2] + end)};
   }
 
   void collect_vertices(const CellLoops& loops, std::size_t at) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "smopt/progress.h"
@@ -11,6 +12,11 @@ namespace smopt {
 /// A vertex keeps this distance from the ends of its edge, in edges, so that it is strictly inside: a node whose value is the
 /// isovalue would else be the place of up to six vertices.
 inline constexpr double kLeastParameter = 1e-6;
+
+/// Where the linear interpolant between two values of different sign is zero, in edges from the first.
+inline double zero_between(double first, double second) {
+  return std::clamp(first / (first - second), kLeastParameter, 1 - kLeastParameter);
+}
 
 /// \throws InvalidInput when doubles at a distance from the origin do not resolve the least parameter of edges of this length.
 void require_resolution(double spacing, double distance);

@@ -13,6 +13,7 @@
 #include "smopt/surface/block_mesh.h"
 #include "smopt/surface/field_blocks.h"
 #include "smopt/surface/gaussian_field.h"
+#include "smopt/surface/positive_option.h"
 #include "smopt/surface/surface_estimate.h"
 #include "smopt/surface/trilinear_block.h"
 
@@ -23,10 +24,6 @@ namespace {
 constexpr double kMostVertices = std::numeric_limits<VertexId>::max();
 
 constexpr double kBytesPerMb = 1 << 20;
-
-void require_positive(double value, const char* name) {
-  if (!(std::isfinite(value) && value > 0)) throw InvalidOption(fmt::format("{} must be positive and finite, not {}", name, value));
-}
 
 /// The bound from the atoms alone is enough for most; else vertices are counted on a coarse grid.
 void require_feasible(const GaussianField& field, const UniformSurface& surface, std::uint64_t max_memory_bytes,
