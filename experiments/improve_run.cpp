@@ -69,6 +69,8 @@ void add_outcome(Json& report, const PreparationReport& preparation, const Metho
                      {"refused", outcome.moves.refused},
                      {"stuck", outcome.stuck}};
   report["stopped_because"] = outcome.stopped_because;
+  report["diverged_at_step"] = outcome.diverged_at_step ? Json(*outcome.diverged_at_step) : Json();
+  report["notes"] = outcome.notes;
   if (outcome.volume_before != 0) {
     report["volume"] = {{"before_smoothing", outcome.volume_before},
                         {"after_smoothing", outcome.volume_after},

@@ -22,6 +22,19 @@ class InvalidOption : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// A method that could not do its work, through no fault of the input: a program of somebody else's crashed, ran out of time or memory, or
+/// gave back nothing that is a mesh. The message says which and why. The program answers it with exit code 1.
+class MethodFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A method that needs a program that is not installed here; the message says which and how to get it.
+class NotInstalled : public MethodFailed {
+ public:
+  using MethodFailed::MethodFailed;
+};
+
 /// The progress callback asked to stop.
 class Cancelled : public std::runtime_error {
  public:

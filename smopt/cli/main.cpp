@@ -96,6 +96,8 @@ int main(int argc, char** argv) {
     return report_error(error.what(), ExitCode::wrong_usage);
   } catch (const smopt::InvalidInput& error) {
     return report_error(error.what(), ExitCode::bad_input);
+  } catch (const smopt::MethodFailed& error) {
+    return report_error(error.what(), ExitCode::answer_is_no);
   } catch (const smopt::Cancelled&) {
     return report_error("interrupted", ExitCode::interrupted);
   } catch (const std::system_error& error) {

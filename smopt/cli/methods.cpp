@@ -24,6 +24,7 @@ Json to_json(const Method& method) {
   return {{"name", method.name},
           {"summary", method.summary},
           {"source", method.source},
+          {"note", method.note},
           {"cavities", to_string(method.default_cavities)},
           {"options", options}};
 }
@@ -31,6 +32,7 @@ Json to_json(const Method& method) {
 void print(const Method& method) {
   fmt::print("{}\n  {}\n  Source: {}\n  --cavities {} unless said otherwise\n", method.name, method.summary, method.source,
              to_string(method.default_cavities));
+  if (!method.note.empty()) fmt::print("  Note: {}\n", method.note);
   for (const MethodOption& option : method.options) {
     fmt::print("    --{:<22} {:<10} {}{}{}\n", option.name, option.default_value, option.help,
                option.unit.empty() ? "" : ", " + option.unit,

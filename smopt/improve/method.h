@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,7 +54,9 @@ struct MethodReport {
   double volume_before = 0;  ///< enclosed before smoothing, Å³; both 0 where a method does not say
   double volume_after = 0;
   std::string stopped_because;
-  StageTimes seconds;  ///< at least "smoothing"
+  std::optional<int> diverged_at_step;  ///< the first step (from 1) after which a coordinate was out of bounds (`DivergenceWatch`)
+  std::vector<std::string> notes;       ///< what the user of the result should know, a sentence each
+  StageTimes seconds;                   ///< at least "smoothing"
 };
 
 /// One way of improving a mesh.
@@ -63,8 +66,9 @@ struct Method {
   std::string source;   ///< where it comes from, with the year
   CavityPolicy default_cavities = CavityPolicy::keep;
   std::vector<MethodOption> options;
-  /// Improves a mesh that `prepare` has passed.
+  /// Improves a mesh that `prepare` has passed. \throws InvalidOption; MethodFailed; Cancelled.
   std::function<MethodReport(TriangleMesh&, const OptionValues&, const ProgressCallback&)> run;
+  std::string note = {};  ///< where it departs from its source, or what is missing here; empty where there is nothing to say
 };
 
 /// The methods by name, in the order in which they were added.

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "smopt/mesh/triangle_mesh.h"
+
+namespace smopt::baselines {
+
+/// Sees when an iteration blows up: the first step after which a coordinate is not finite, or a vertex is farther from the centre of the
+/// bounding box it began in than ten of its diagonals.
+class DivergenceWatch {
+ public:
+  explicit DivergenceWatch(const std::vector<Vec3>& start);
+
+  /// Looks at the positions after step `step` (from 1); nothing once a bad step has been seen. Cost: O(n).
+  void look(const std::vector<Vec3>& points, int step);
+
+  [[nodiscard]] std::optional<int> first_bad_step() const { return first_bad_step_; }
+
+ private:
+  Vec3 centre_ = Vec3::Zero();
+  double bound_ = 0;
+  std::optional<int> first_bad_step_;
+};
+
+}  // namespace smopt::baselines
