@@ -1,11 +1,19 @@
 #include "baselines/baselines.h"
 
+#include "baselines/cotangent.h"
+#include "baselines/hc.h"
 #include "baselines/laplacian.h"
+#include "baselines/meshlab.h"
+#include "baselines/taubin.h"
 
 namespace smopt::baselines {
 
 void register_baselines(MethodRegistry& registry) {
   registry.add(laplacian_method());
+  registry.add(taubin_method());
+  registry.add(hc_method());
+  registry.add(cotangent_method());
+  registry.add(meshlab_method());
 }
 
 const MethodRegistry& all_methods() {

@@ -8,25 +8,45 @@ namespace {
 /// Of the bounding box: a mesh that has left ten of its own diagonals behind is lost, and no smoothing that works comes near it.
 constexpr double kDiagonals = 10;
 
-}  // namespace
+/// A ball around the centre of a box.
+struct Ball {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+};
 
-DivergenceWatch::DivergenceWatch(const std::vector<Vec3>& start) {
-  if (start.empty()) return;
-  Vec3 low = start.front(), high = start.front();
-  for (const Vec3& p : start) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+template <class Point>
+Ball allowed_ball(const std::vector<Point>& start) {
+  if (start.empty()) return {};
+  Vec3 low = start.front().template cast<double>(), high = low;
+  for (const Point& p : start) {
+    low = low.cwiseMin(p.template cast<double>());
+    high = high.cwiseMax(p.template cast<double>());
   }
-  centre_ = (low + high) / 2;
-  bound_ = kDiagonals * (high - low).norm();
+  return {(low + high) / 2, kDiagonals * (high - low).norm()};
 }
 
+/// "Not within" rather than "beyond", so that a coordinate that is no number counts.
+template <class Point>
+bool any_outside(const std::vector<Point>& points, const Vec3& centre, double radius) {
+  const double bound = radius * radius;
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Point& p) { return !((p.template cast<double>() - centre).squaredNorm() <= bound); });
+}
+
+}  // namespace
+
+DivergenceWatch::DivergenceWatch(const std::vector<Vec3>& start)
+    : centre_(allowed_ball(start).centre), radius_(allowed_ball(start).radius) {}
+
+DivergenceWatch::DivergenceWatch(const std::vector<Eigen::Vector3f>& start)
+    : centre_(allowed_ball(start).centre), radius_(allowed_ball(start).radius) {}
+
 void DivergenceWatch::look(const std::vector<Vec3>& points, int step) {
-  if (first_bad_step_) return;
-  const double bound = bound_ * bound_;
-  // "not within" rather than "beyond", so that a coordinate that is no number counts.
-  const bool is_bad = std::any_of(points.begin(), points.end(), [&](const Vec3& p) { return !((p - centre_).squaredNorm() <= bound); });
-  if (is_bad) first_bad_step_ = step;
+  if (!first_bad_step_ && any_outside(points, centre_, radius_)) first_bad_step_ = step;
+}
+
+void DivergenceWatch::look(const std::vector<Eigen::Vector3f>& points, int step) {
+  if (!first_bad_step_ && any_outside(points, centre_, radius_)) first_bad_step_ = step;
 }
 
 }  // namespace smopt::baselines

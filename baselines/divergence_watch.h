@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "smopt/mesh/triangle_mesh.h"
 
@@ -11,15 +13,17 @@ namespace smopt::baselines {
 class DivergenceWatch {
  public:
   explicit DivergenceWatch(const std::vector<Vec3>& start);
+  explicit DivergenceWatch(const std::vector<Eigen::Vector3f>& start);
 
   /// Looks at the positions after step `step` (from 1); nothing once a bad step has been seen. Cost: O(n).
   void look(const std::vector<Vec3>& points, int step);
+  void look(const std::vector<Eigen::Vector3f>& points, int step);
 
   [[nodiscard]] std::optional<int> first_bad_step() const { return first_bad_step_; }
 
  private:
   Vec3 centre_ = Vec3::Zero();
-  double bound_ = 0;
+  double radius_ = 0;
   std::optional<int> first_bad_step_;
 };
 

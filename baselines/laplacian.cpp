@@ -2,50 +2,48 @@
 
 #include <fmt/format.h>
 
-#include "smopt/error.h"
-#include "smopt/mesh/rings.h"
+#include "baselines/divergence_watch.h"
+#include "baselines/laplacian_step.h"
+#include "baselines/smoothing_run.h"
+#include "baselines/vertex_neighbours.h"
 
 namespace smopt::baselines {
 namespace {
 
-Vec3 mean_of(std::span<const VertexId> ring, const std::vector<Vec3>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const VertexId w : ring) sum += points[w];
-  return sum / static_cast<double>(ring.size());
-}
-
-/// One round from `from` to `to`; the same array for Gauss–Seidel.
-void sweep(const VertexRings& rings, double beta, const std::vector<Vec3>& from, std::vector<Vec3>& to) {
-  for (VertexId v = 0; v < rings.vertex_count(); ++v)
-    if (rings.valence(v) > 0) to[v] = from[v] + beta * (mean_of(rings.vertices(v), from) - from[v]);
+/// One Gauss–Seidel round in ascending order.
+void sweep(const VertexNeighbours& neighbours, double beta, std::vector<Vec3>& points) {
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const auto ring = neighbours[v];
+    if (!ring.empty()) points[v] += beta * (neighbour_mean(ring, points) - points[v]);
+  }
 }
 
 MethodReport run_laplacian(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
   const LaplacianOptions options{values.integer("rounds", 0), values.number("beta", 0),
                                  values.text("order") == "jacobi" ? SweepOrder::jacobi : SweepOrder::gauss_seidel};
   MethodReport report;
-  timed(report.seconds, "smoothing", [&] { smooth_laplacian(mesh, options, progress); });
-  report.rounds.assign(static_cast<std::size_t>(options.rounds), {mesh.vertex_count(), {mesh.vertex_count(), 0, 0}, 0});
-  report.moves.accepted = mesh.vertex_count() * static_cast<std::size_t>(options.rounds);
-  report.stopped_because = "rounds";
+  const auto diverged = timed(report.seconds, "smoothing", [&] { return smooth_laplacian(mesh, options, progress); });
+  report_rounds(report, mesh, options.rounds, diverged);
   return report;
 }
 
 }  // namespace
 
-void smooth_laplacian(TriangleMesh& mesh, const LaplacianOptions& options, const ProgressCallback& progress) {
-  const std::optional<VertexRings> rings = build_rings(mesh);
-  if (!rings) throw InvalidMesh("Laplacian smoothing needs a closed, oriented manifold");
-  std::vector<Vec3> next = options.order == SweepOrder::jacobi ? mesh.points : std::vector<Vec3>();
-  for (int round = 0; round < options.rounds; ++round) {
-    report_progress(progress, "smoothing", static_cast<double>(round) / options.rounds);
+std::optional<int> smooth_laplacian(TriangleMesh& mesh, const LaplacianOptions& options, const ProgressCallback& progress) {
+  const VertexNeighbours neighbours = build_neighbours(mesh);
+  DivergenceWatch watch(mesh.points);
+  std::vector<Vec3> next(options.order == SweepOrder::jacobi ? mesh.points.size() : 0);
+  for (int round = 1; round <= options.rounds; ++round) {
+    report_progress(progress, "smoothing", static_cast<double>(round - 1) / options.rounds);
     if (options.order == SweepOrder::gauss_seidel) {
-      sweep(*rings, options.beta, mesh.points, mesh.points);
+      sweep(neighbours, options.beta, mesh.points);
     } else {
-      sweep(*rings, options.beta, mesh.points, next);
+      laplacian_step(neighbours, options.beta, mesh.points, next);
       mesh.points.swap(next);
     }
+    watch.look(mesh.points, round);
   }
+  return watch.first_bad_step();
 }
 
 Method laplacian_method() {

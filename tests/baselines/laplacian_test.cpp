@@ -114,10 +114,19 @@ TEST(Laplacian, ShrinksASphereAndKeepsItsTopology) {
   }
 }
 
-TEST(Laplacian, RejectsAnOpenMesh) {
-  TriangleMesh mesh = icosphere(1);
-  mesh.triangles.pop_back();
-  EXPECT_THROW(smooth_laplacian(mesh, {}), InvalidMesh);
+TEST(Laplacian, HasNoRuleForBorders) {
+  // A pyramid without its base: a corner's neighbours are two opposite corners, whose mean is (0, 0, 0), and the tip.
+  const TriangleMesh square{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 3}},
+                            {{{0, 1, 4}}, {{1, 2, 4}}, {{2, 3, 4}}, {{3, 0, 4}}}};
+  expect_points_near(smoothed(square, {1, 1, SweepOrder::jacobi}), {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 0}}, 1e-15);
+}
+
+TEST(Laplacian, SaysWhenItDiverges) {
+  // Beta 3 multiplies each edge of a tetrahedron, whose vertices sum to zero, by 1 − 3 · 4/3 = −3 a round: beyond ten diagonals of the box
+  // (10 · 2√3 = 34.6) when √3 · 3^k is, for k = 3.
+  TriangleMesh mesh = tetrahedron();
+  EXPECT_EQ(smooth_laplacian(mesh, {5, 3, SweepOrder::jacobi}), 3);
+  EXPECT_EQ(smooth_laplacian(mesh = tetrahedron(), {2, 3, SweepOrder::jacobi}), std::nullopt);
 }
 
 TEST(Laplacian, StopsWithCancelledWhenTheCallbackSaysSo) {

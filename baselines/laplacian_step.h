@@ -1,0 +1,12 @@
+#pragma once
+
+#include "baselines/vertex_neighbours.h"
+#include "smopt/mesh/triangle_mesh.h"
+
+namespace smopt::baselines {
+
+/// One Jacobi step of Laplacian smoothing, on all threads: to[v] = from[v] + weight · (mean of the neighbours in `from` − from[v]).
+/// Vertices without neighbours keep their place. \pre `to` has the size of `from` and is another array. Same bytes for any number of threads.
+void laplacian_step(const VertexNeighbours& neighbours, double weight, const std::vector<Vec3>& from, std::vector<Vec3>& to);
+
+}  // namespace smopt::baselines
