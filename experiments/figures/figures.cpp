@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "experiments/embedded.h"
-#include "metrics/tetgen/child_process.h"
 #include "smopt/error.h"
+#include "smopt/io/child_process.h"
 
 namespace smopt::experiments {
 namespace {
@@ -33,7 +33,7 @@ void draw_figures(const RecordSet& records, const std::filesystem::path& directo
                                             fmt::format("{}", fmt::join(records.methods(), ","))};
   if (!std::filesystem::exists(command.front()))
     throw InvalidInput(fmt::format("figures: {} does not exist (Debian package python3-matplotlib; or set SMOPT_PYTHON)", command.front()));
-  const metrics::ProcessOutcome outcome = metrics::run_process(command, {kTimeLimitSeconds, 0}, "figures", progress);
+  const ProcessOutcome outcome = run_process(command, {kTimeLimitSeconds, 0}, "figures", progress);
   if (outcome.exit_status != 0) throw InvalidInput(fmt::format("figures: {} failed: {}", command.front(), outcome.output));
 }
 

@@ -11,11 +11,11 @@
 
 #include "metrics/intersections.h"
 #include "metrics/shape.h"
-#include "metrics/tetgen/child_process.h"
 #include "metrics/tetgen/verification.h"
 #include "metrics/tetgen/worker_location.h"
 #include "metrics/tetgen/worker_protocol.h"
 #include "smopt/error.h"
+#include "smopt/io/child_process.h"
 #include "smopt/io/scratch_folder.h"
 
 namespace smopt::metrics {

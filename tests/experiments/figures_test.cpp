@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "experiments/embedded.h"
-#include "metrics/tetgen/child_process.h"
 #include "smopt/error.h"
+#include "smopt/io/child_process.h"
 #include "tests/experiments/made_records.h"
 #include "tests/support/files.h"
 
@@ -43,9 +43,9 @@ void save_run(const std::filesystem::path& directory) {
 /// Runs the plotting program by itself; returns the bars it drew, by figure.
 Json drawn_bars(const std::filesystem::path& directory) {
   const auto dump = directory / "bars.json";
-  const metrics::ProcessOutcome outcome =
-      metrics::run_process({"/usr/bin/python3", "-c", std::string(embedded::plot_program()), directory.string(), "--dump", dump.string()},
-                           {kTimeLimitSeconds, 0}, "figures", {});
+  const ProcessOutcome outcome =
+      run_process({"/usr/bin/python3", "-c", std::string(embedded::plot_program()), directory.string(), "--dump", dump.string()},
+                  {kTimeLimitSeconds, 0}, "figures", {});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.output;
   return Json::parse(bytes_of(dump));
 }

@@ -1,4 +1,4 @@
-#include "metrics/tetgen/child_process.h"
+#include "smopt/io/child_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,12 +17,13 @@
 
 #include "smopt/peak_memory.h"
 
-namespace smopt::metrics {
+namespace smopt {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMs = 50;                                ///< between two looks at the clock; short enough to answer Ctrl-C at once
+constexpr std::chrono::milliseconds kPatience{5};          ///< between two looks at what has been asked to end
 constexpr std::size_t kKeptOutput = std::size_t{1} << 20;  ///< bytes; TetGen's messages are a few kilobytes
 constexpr int kCannotStart = 127;                          ///< exit status of a child that could not become the program, as in shells
 
@@ -49,13 +50,47 @@ class Descriptor {
   int fd_;
 };
 
+/// \throws InvalidInput with the system's word for the last error.
+void require_started(bool is_well, const std::vector<std::string>& command) {
+  if (!is_well) throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
+}
+
 void set_limit(int resource, rlim_t value) {
   const rlimit limit{value, value};
   setrlimit(static_cast<__rlimit_resource>(resource), &limit);
 }
 
+/// Texts as the system wants them: pointers, a null at the end. \pre the texts outlive the result.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// This process's variables, those that are set anew left out, and the new ones.
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& variables) {
+  std::vector<std::string> result;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (!variables.contains(std::string(text.substr(0, text.find('='))))) result.emplace_back(text);
+  }
+  for (const auto& [name, value] : variables) result.push_back(name + "=" + value);
+  return result;
+}
+
+/// What the child needs, laid out before the fork.
+struct Start {
+  Start(const std::vector<std::string>& command, const ProcessSurroundings& surroundings)
+      : words(command), variables(environment_with(surroundings.environment)), folder(surroundings.folder.string()) {}
+
+  std::vector<std::string> words, variables;
+  std::vector<char*> argv = pointers_to(words), envp = pointers_to(variables);
+  std::string folder;
+};
+
 /// In the child, between fork and exec: calls that are safe there only.
-[[noreturn]] void become(char* const* argv, const ProcessLimits& limits, int output, pid_t parent) {
+[[noreturn]] void become(const Start& start, const ProcessLimits& limits, int output, int held, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kCannotStart);
@@ -65,29 +100,32 @@ void set_limit(int resource, rlim_t value) {
   dup2(nothing, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
-  execv(argv[0], argv);
+  fcntl(held, F_SETFD, 0);  // goes on to the program and to whatever it starts
+  if (!start.folder.empty() && chdir(start.folder.c_str()) != 0) _exit(kCannotStart);
+  execve(start.argv[0], start.argv.data(), start.envp.data());
   _exit(kCannotStart);
 }
 
 /// A running child: its output is collected, and it does not outlive this object.
 class Child {
  public:
-  Child(const std::vector<std::string>& command, const ProcessLimits& limits) {
-    std::vector<char*> argv;
-    for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    std::array<int, 2> ends{}, until_started{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
+  Child(const std::vector<std::string>& command, const ProcessLimits& limits, const ProcessSurroundings& surroundings)
+      : grace_seconds_(limits.grace_seconds) {
+    const Start start(command, surroundings);
+    std::array<int, 2> ends{}, until_started{}, until_ended{};
+    require_started(pipe2(ends.data(), O_CLOEXEC) == 0, command);
     output_.reset(ends[0]);
     const Descriptor input(ends[1]);
-    if (pipe2(until_started.data(), O_CLOEXEC) != 0)
-      throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
+    require_started(pipe2(until_started.data(), O_CLOEXEC) == 0, command);
     const Descriptor started(until_started[0]);
     Descriptor not_started(until_started[1]);
+    require_started(pipe2(until_ended.data(), O_CLOEXEC) == 0, command);
+    lifeline_.reset(until_ended[0]);
+    const Descriptor held(until_ended[1]);
     const pid_t parent = getpid();
     pid_ = fork();
-    if (pid_ < 0) throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
-    if (pid_ == 0) become(argv.data(), limits, input.get(), parent);
+    require_started(pid_ >= 0, command);
+    if (pid_ == 0) become(start, limits, input.get(), held.get(), parent);
     setpgid(pid_, pid_);  // in both, so that it is done before either goes on
     // The child's end closes as it becomes the program: before that, its memory is a copy of this process's.
     not_started.reset();
@@ -96,9 +134,7 @@ class Child {
     }
   }
   ~Child() {
-    if (ended_) return;
-    kill_all();
-    waitpid(pid_, &status_, 0);
+    if (pid_ > 0 && !ended_) stop();
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -108,27 +144,46 @@ class Child {
     look_at_memory();
     collect_output(kPollMs);
     look_at_memory();
-    if (waitpid(pid_, &status_, WNOHANG) == pid_) end();
+    ended_ = reap(WNOHANG);
+    if (ended_) stop();
     return ended_;
   }
+  /// Ends what is still there of it and of what it started.
   void stop() {
-    kill_all();
-    if (waitpid(pid_, &status_, 0) == pid_) end();
+    ask_all_to_end();
+    kill(-pid_, SIGKILL);
+    if (!ended_) ended_ = reap(0);
+    collect_output(0);
   }
 
   [[nodiscard]] int status() const { return status_; }
+  [[nodiscard]] double cpu_seconds() const { return cpu_seconds_; }
   [[nodiscard]] double peak_memory_mb() const { return peak_memory_mb_; }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
   void look_at_memory() { peak_memory_mb_ = std::max(peak_memory_mb_, peak_memory_mb_of(std::to_string(pid_))); }
 
-  void kill_all() const { kill(-pid_, SIGKILL); }
+  bool reap(int flags) {
+    rusage used{};
+    if (wait4(pid_, &status_, flags, &used) != pid_) return false;
+    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    cpu_seconds_ = seconds(used.ru_utime) + seconds(used.ru_stime);
+    return true;
+  }
 
-  void end() {
-    ended_ = true;
-    kill_all();  // what it started and left behind
-    collect_output(0);
+  /// Whether something of the process group still runs: what has ended and was not waited for holds no descriptor.
+  [[nodiscard]] bool is_something_left() const {
+    pollfd lifeline{lifeline_.get(), POLLIN, 0};
+    return kill(-pid_, 0) == 0 && poll(&lifeline, 1, 0) == 0;
+  }
+
+  void ask_all_to_end() {
+    if (grace_seconds_ <= 0 || kill(-pid_, SIGTERM) != 0) return;
+    const auto end = Clock::now() + std::chrono::duration<double>(grace_seconds_);
+    while (is_something_left() && Clock::now() < end) {
+      std::this_thread::sleep_for(kPatience);
+    }
   }
 
   void collect_output(int wait_ms) {
@@ -158,21 +213,23 @@ class Child {
   pid_t pid_ = -1;
   bool ended_ = false;
   int status_ = 0;
+  double grace_seconds_;
+  double cpu_seconds_ = 0;
   double peak_memory_mb_ = 0;
   Descriptor output_;
+  Descriptor lifeline_;  ///< at its end once nobody holds the other end any more
   std::string text_;
 };
 
 }  // namespace
 
 ProcessOutcome run_process(const std::vector<std::string>& command, const ProcessLimits& limits, const char* stage,
-                           const ProgressCallback& progress) {
-  if (access(command.front().c_str(), X_OK) != 0)
-    throw InvalidInput(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
+                           const ProgressCallback& progress, const ProcessSurroundings& surroundings) {
+  require_started(access(command.front().c_str(), X_OK) == 0, command);
   ProcessOutcome outcome;
   const auto start = Clock::now();
   const auto elapsed = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  Child child(command, limits);
+  Child child(command, limits, surroundings);
   while (!child.step()) {
     report_progress(progress, stage, std::min(elapsed() / limits.seconds, 1.0));
     if (elapsed() < limits.seconds) continue;
@@ -181,6 +238,7 @@ ProcessOutcome run_process(const std::vector<std::string>& command, const Proces
     break;
   }
   outcome.seconds = elapsed();
+  outcome.cpu_seconds = child.cpu_seconds();
   outcome.peak_memory_mb = child.peak_memory_mb();
   outcome.output = child.text();
   if (WIFSIGNALED(child.status())) outcome.signal = WTERMSIG(child.status());
@@ -188,4 +246,4 @@ ProcessOutcome run_process(const std::vector<std::string>& command, const Proces
   return outcome;
 }
 
-}  // namespace smopt::metrics
+}  // namespace smopt
