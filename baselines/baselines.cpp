@@ -1,6 +1,7 @@
 #include "baselines/baselines.h"
 
 #include "baselines/cotangent.h"
+#include "baselines/external/external_methods.h"
 #include "baselines/hc.h"
 #include "baselines/laplacian.h"
 #include "baselines/meshlab.h"
@@ -14,6 +15,7 @@ void register_baselines(MethodRegistry& registry) {
   registry.add(hc_method());
   registry.add(cotangent_method());
   registry.add(meshlab_method());
+  register_external_tools(registry);
 }
 
 const MethodRegistry& all_methods() {
