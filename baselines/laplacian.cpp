@@ -32,6 +32,7 @@ MethodReport run_laplacian(TriangleMesh& mesh, const OptionValues& values, const
 std::optional<int> smooth_laplacian(TriangleMesh& mesh, const LaplacianOptions& options, const ProgressCallback& progress) {
   const VertexNeighbours neighbours = build_neighbours(mesh);
   DivergenceWatch watch(mesh.points);
+  const bool may_diverge = options.beta > 1;  // up to 1 a vertex stays within the hull of its ring
   std::vector<Vec3> next(options.order == SweepOrder::jacobi ? mesh.points.size() : 0);
   for (int round = 1; round <= options.rounds; ++round) {
     report_progress(progress, "smoothing", static_cast<double>(round - 1) / options.rounds);
@@ -41,7 +42,7 @@ std::optional<int> smooth_laplacian(TriangleMesh& mesh, const LaplacianOptions& 
       laplacian_step(neighbours, options.beta, mesh.points, next);
       mesh.points.swap(next);
     }
-    watch.look(mesh.points, round);
+    if (may_diverge) watch.look(mesh.points, round);
   }
   return watch.first_bad_step();
 }

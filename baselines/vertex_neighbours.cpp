@@ -1,7 +1,5 @@
 #include "baselines/vertex_neighbours.h"
 
-#include <algorithm>
-
 #include "smopt/mesh/stars.h"
 
 namespace smopt::baselines {
@@ -12,16 +10,16 @@ VertexNeighbours build_neighbours(const TriangleMesh& mesh) {
   result.offsets.reserve(mesh.vertex_count() + 1);
   result.offsets.push_back(0);
   result.neighbours.reserve(3 * mesh.triangle_count());
-  std::vector<VertexId> row;
+  std::vector<VertexId> last_row(mesh.vertex_count(), static_cast<VertexId>(mesh.vertex_count()));  // the last row a vertex was put into
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    row.clear();
+    last_row[v] = v;
     for (const FaceId f : stars[v]) {
       for (const VertexId w : mesh.triangles[f]) {
-        if (w != v) row.push_back(w);
+        if (last_row[w] == v) continue;
+        last_row[w] = v;
+        result.neighbours.push_back(w);
       }
     }
-    std::sort(row.begin(), row.end());
-    result.neighbours.insert(result.neighbours.end(), row.begin(), std::unique(row.begin(), row.end()));
     result.offsets.push_back(static_cast<std::uint32_t>(result.neighbours.size()));
   }
   return result;
