@@ -1,5 +1,6 @@
 #include "baselines/baselines.h"
 
+#include "baselines/cgal/cgal_methods.h"
 #include "baselines/cotangent.h"
 #include "baselines/external/external_methods.h"
 #include "baselines/hc.h"
@@ -15,6 +16,7 @@ void register_baselines(MethodRegistry& registry) {
   registry.add(hc_method());
   registry.add(cotangent_method());
   registry.add(meshlab_method());
+  register_cgal_methods(registry);
   register_external_tools(registry);
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "smopt/improve/method.h"
+
+namespace smopt::baselines {
+
+/// An option that is on or off.
+MethodOption switch_option(std::string name, bool is_on, std::string help);
+
+/// Whether a `switch_option` is on.
+bool is_on(const OptionValues& values, const std::string& name);
+
+/// Fills the rounds of a report over `vertices` vertices each; how many of them moved CGAL does not say, and a note says that.
+void report_cgal_rounds(MethodReport& report, std::size_t vertices, int rounds);
+
+}  // namespace smopt::baselines
