@@ -3,6 +3,7 @@
 #include "baselines/cgal/cgal_methods.h"
 #include "baselines/cotangent.h"
 #include "baselines/external/external_methods.h"
+#include "baselines/gamer/angle_weighted_smoothing.h"
 #include "baselines/hc.h"
 #include "baselines/laplacian.h"
 #include "baselines/meshlab.h"
@@ -17,6 +18,7 @@ void register_baselines(MethodRegistry& registry) {
   registry.add(cotangent_method());
   registry.add(meshlab_method());
   register_cgal_methods(registry);
+  registry.add(gamer_method());
   register_external_tools(registry);
 }
 
