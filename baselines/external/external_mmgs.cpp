@@ -19,6 +19,8 @@ constexpr const char* kHowToGet = "from https://www.mmgtools.org";
 /// Options that are handed on as `-name value`; 0 leaves MMG its own default.
 constexpr const char* kLengths[] = {"hausd", "hmin", "hmax", "hsiz"};
 
+constexpr const char* kNoGradation = "-1";  ///< MMG's value of -hgrad for none
+
 fs::path require_mmgs() {
   const std::optional<fs::path> optimised = find_program("mmgs_O3");
   return optimised ? *optimised : require_program(kName, "mmgs", kHowToGet);
@@ -28,7 +30,8 @@ std::vector<std::string> arguments_of(const OptionValues& values) {
   std::vector<std::string> arguments;
   for (const std::string name : kLengths)
     if (values.number(name, 0) > 0) arguments.insert(arguments.end(), {"-" + name, values.text(name)});
-  arguments.insert(arguments.end(), {"-hgrad", values.text("hgrad")});
+  const bool has_gradation = values.number("hgrad", 0) > 0;
+  arguments.insert(arguments.end(), {"-hgrad", has_gradation ? values.text("hgrad") : kNoGradation});
   const bool has_ridges = values.number("ridge-angle", 0) > 0;
   if (has_ridges) arguments.insert(arguments.end(), {"-ar", values.text("ridge-angle")});
   if (!has_ridges) arguments.emplace_back("-nr");
@@ -61,7 +64,7 @@ Method external_mmgs_method() {
                           {"hmin", Kind::number, "0", "Å", "shortest edge; 0: MMG's own", {}},
                           {"hmax", Kind::number, "0", "Å", "longest edge; 0: MMG's own", {}},
                           {"hsiz", Kind::number, "0", "Å", "constant edge length; 0: none", {}},
-                          {"hgrad", Kind::number, "1.3", "", "largest ratio of the lengths of neighbouring edges", {}},
+                          {"hgrad", Kind::number, "1.3", "", "largest ratio of the lengths of neighbouring edges; 0: any", {}},
                           {"ridge-angle", Kind::number, "45", "degrees", "sharper edges are kept as ridges; 0: none are looked for", {}}}),
       run_mmgs,
       "needs mmgs_O3 or mmgs, which Debian 12 does not have; only its remeshing, neither level sets nor size maps"};

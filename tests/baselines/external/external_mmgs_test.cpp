@@ -36,6 +36,8 @@ TEST_F(ExternalMmgs, PassesOnlyWhatIsSet) {
   EXPECT_THAT(arguments(), Not(HasSubstr("-hausd")));
   run_method(method_, icosphere(0), {{"hausd", "0.05"}, {"hsiz", "1"}, {"hgrad", "2"}, {"ridge-angle", "0"}});
   EXPECT_THAT(arguments(), EndsWith(" -hausd 0.05 -hsiz 1 -hgrad 2 -nr\n"));
+  run_method(method_, icosphere(0), {{"hgrad", "0"}});
+  EXPECT_THAT(arguments(), EndsWith(" -hgrad -1 -ar 45\n"));
 }
 
 TEST_F(ExternalMmgs, PrefersTheOptimisedProgram) {
