@@ -14,7 +14,6 @@ std::vector<MethodOption> angle_area_options() {
       switch_option("safety", defaults.has_safety_constraints,
                     "use_safety_constraints: refuse moves that turn a triangle or lessen the smallest angle; stop where the surface "
                     "intersects itself"),
-      switch_option("flips", defaults.flips_edges, "use_Delaunay_flips, after each smoothing of areas (none for angles alone)"),
       switch_option("project", defaults.projects, "do_project: put every vertex back onto the initial surface")};
 }
 
@@ -22,7 +21,6 @@ AngleAreaOptions read_angle_area_options(const OptionValues& values) {
   AngleAreaOptions options;
   options.rounds = values.integer("rounds", 0);
   options.has_safety_constraints = is_on(values, "safety");
-  options.flips_edges = is_on(values, "flips");
   options.projects = is_on(values, "project");
   return options;
 }
@@ -41,16 +39,15 @@ MethodReport run_angle_area(TriangleMesh& mesh, const AngleAreaOptions& options,
 }
 
 Method angle_method() {
-  return {
-      "cgal_angle",
-      "CGAL's angle smoothing: vertices move to bisect their neighbours' angles, and back onto the surface",
-      "CGAL 5.5, Polygon_mesh_processing::angle_and_area_smoothing, 2022; Surazhsky & Gotsman, Eng. Comput. 20:147, 2004",
-      CavityPolicy::keep,
-      angle_area_options(),
-      [](TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
-        return run_angle_area(mesh, read_angle_area_options(values), progress);
-      },
-      "without the smoothing of areas, which is cgal_area; no vertex or edge is constrained"};
+  return {"cgal_angle",
+          "CGAL's angle smoothing: vertices move to bisect their neighbours' angles, and back onto the surface",
+          "CGAL 5.5, Polygon_mesh_processing::angle_and_area_smoothing, 2022; Surazhsky & Gotsman, Eng. Comput. 20:147, 2004",
+          CavityPolicy::keep,
+          angle_area_options(),
+          [](TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
+            return run_angle_area(mesh, read_angle_area_options(values), progress);
+          },
+          "without the smoothing of areas, which is cgal_area, and so without its Delaunay flips; no vertex or edge is constrained"};
 }
 
 }  // namespace smopt::baselines

@@ -5,7 +5,7 @@
 
 namespace smopt::baselines {
 
-/// What CGAL's smoothing of angles and that of areas have in common: their options, with the defaults of `AngleAreaOptions`.
+/// The options that CGAL's smoothing of angles and that of areas have in common, with the defaults of `AngleAreaOptions`.
 std::vector<MethodOption> angle_area_options();
 AngleAreaOptions read_angle_area_options(const OptionValues& values);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "baselines/cgal/cgal_report.h"
@@ -26,41 +27,50 @@ RemeshingOptions read_options(const OptionValues& values) {
   return options;
 }
 
+/// Edge length² × vertices of equilateral triangles in whose place the surface would be, Å²: each vertex has the area of two.
+double length_squared_times_vertices(const TriangleMesh& mesh) {
+  double doubled_area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    doubled_area += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  if (!(doubled_area > 0)) throw MethodFailed("CGAL cannot remesh a surface without area");
+  return doubled_area / std::numbers::sqrt3;
+}
+
+/// More vertices than this are a slip in the edge length rather than a wish: they take about 50 GB.
+constexpr double kMostVertices = 1e8;
+
+void require_feasible(const TriangleMesh& mesh, double edge_length) {
+  const double vertices = length_squared_times_vertices(mesh) / (edge_length * edge_length);
+  if (vertices > kMostVertices)
+    throw InvalidOption(
+        fmt::format("--edge-length: {} Å would take about {:.1e} vertices, more than {:.0e}", edge_length, vertices, kMostVertices));
+}
+
 void remesh_to_length(TriangleMesh& mesh, RemeshingOptions options, MethodReport& report, const ProgressCallback& progress) {
   if (options.edge_length == 0) options.edge_length = mean_edge_length(mesh);
+  require_feasible(mesh, options.edge_length);
   timed(report.seconds, "smoothing", [&] { remesh_isotropically(mesh, options, progress); });
   report.notes.push_back(fmt::format("Remeshed with the edge length {:.6g} Å.", options.edge_length));
 }
 
-/// The edge length of equilateral triangles in whose place the surface would have this many vertices: each vertex has the area of two.
-double equilateral_length(const TriangleMesh& mesh, std::size_t vertices) {
-  double doubled_area = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    doubled_area += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
-  return std::sqrt(doubled_area / (std::numbers::sqrt3 * static_cast<double>(vertices)));
-}
-
 /// The time of the run that gave the result is "smoothing"; that of the others, which whoever knew the edge length would not need, is
-/// "edge length".
+/// "search".
 void remesh_to_vertices(TriangleMesh& mesh, std::size_t target, RemeshingOptions options, MethodReport& report,
                         const ProgressCallback& progress) {
   const Stopwatch stopwatch;
-  std::vector<std::pair<double, Seconds>> runs;
-  VertexSearchResult found = search_vertex_count(target, equilateral_length(mesh, target), [&](double edge_length) {
+  std::map<double, Seconds> runs;  // by edge length
+  const double first_length = std::sqrt(length_squared_times_vertices(mesh) / static_cast<double>(target));
+  VertexSearchResult found = search_vertex_count(target, first_length, [&](double edge_length) {
     const Stopwatch run;
     TriangleMesh copy = mesh;
     options.edge_length = edge_length;
     remesh_isotropically(copy, options, progress);
-    runs.emplace_back(edge_length, run.elapsed());
+    runs[edge_length] = run.elapsed();
     return copy;
   });
   mesh = std::move(found.mesh);
-  const Seconds all = stopwatch.elapsed();
-  for (const auto& [length, time] : runs) {
-    if (length != found.edge_length) continue;
-    report.seconds = {{"smoothing", time}, {"edge length", {all.wall - time.wall, all.cpu - time.cpu}}};
-    break;
-  }
+  const Seconds all = stopwatch.elapsed(), last = runs.at(found.edge_length);
+  report.seconds = {{"smoothing", last}, {"search", {all.wall - last.wall, all.cpu - last.cpu}}};
   report.notes.push_back(fmt::format("Remeshed with the edge length {:.6g} Å: {} vertices of {} asked for, after {} runs{}.",
                                      found.edge_length, mesh.vertex_count(), target, found.runs,
                                      found.is_near ? "" : "; missed by more than 1 %"));

@@ -148,6 +148,7 @@ TEST(RemeshMethod, RejectsContradictions) {
   EXPECT_THROW(run(icosphere(1), {{"vertices", "100"}, {"match", "x.off"}}), InvalidOption);
   EXPECT_THROW(run(icosphere(1), {{"vertices", "100"}, {"edge-length", "1"}}), InvalidOption);
   EXPECT_THROW(run(icosphere(1), {{"split", "maybe"}}), InvalidOption);
+  EXPECT_THROW(run(icosphere(1), {{"edge-length", "1e-5"}}), InvalidOption);  // 10¹¹ vertices
 }
 
 }  // namespace
