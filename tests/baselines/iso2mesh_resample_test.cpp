@@ -60,6 +60,16 @@ TEST(Resample, ReplacesTheShortestEdgeByItsMidpoint) {
   EXPECT_TRUE(report.is_target_met);
 }
 
+TEST(Resample, TakesTheShortestEdgeAndNotTheOneThatChangesTheSurfaceLeast) {
+  // The same pyramid with its apex near a corner of the roof: the vertex in the middle of the roof could go without a change.
+  TriangleMesh mesh{{{0, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {1, 1, -0.5}},
+                    {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 2, 1}, {5, 3, 2}, {5, 4, 3}, {5, 1, 4}}};
+  const TriangleMesh least = resampled(mesh, exact(5, CollapsePlacement::lindstrom_turk));
+  EXPECT_NEAR(enclosed_volume(least), enclosed_volume(mesh), 1e-12);
+  resample(mesh, {.vertices = 5});
+  EXPECT_EQ(sorted(mesh.points), (std::vector<Vec3>{{-1, -1, 0}, {-1, 1, 0}, {0, 0, 0}, {1, -1, 0}, {1, 1, -0.25}}));
+}
+
 TEST(Resample, MeetsTheNumberOfVerticesExactlyOnAClosedSurface) {
   for (const CollapsePlacement placement : kPlacements) {
     for (const std::size_t target : {1441U, 1000U, 123U}) {
