@@ -37,15 +37,21 @@ std::string last_line(std::string_view text) {
   return text.empty() ? std::string() : fmt::format(": {}", text);
 }
 
+/// How much memory it was allowed, where that was limited: a crash may come from it, and nobody says so.
+std::string allowance(const ProcessLimits& limits) {
+  return limits.memory_mb > 0 ? fmt::format(" with {} MB allowed", limits.memory_mb) : std::string();
+}
+
 /// Empty when the process ended by itself and content.
 std::string why_failed(const ProcessOutcome& outcome, const ProcessLimits& limits) {
   if (outcome.out_of_time) return fmt::format("ran out of its {:g} s", limits.seconds);
-  if (outcome.signal) return fmt::format("was ended by signal {}{}", name_of_signal(*outcome.signal), last_line(outcome.output));
+  const std::string line = last_line(outcome.output);
+  if (outcome.signal) return fmt::format("was ended by signal {}{}{}", name_of_signal(*outcome.signal), allowance(limits), line);
   const int status = outcome.exit_status.value_or(-1);
   if (status == 0) return {};
-  const char* name = status > kShellSignalBase ? sigabbrev_np(status - kShellSignalBase) : nullptr;
-  return fmt::format("ended with exit status {}{}{}", status, name != nullptr ? fmt::format(" (signal SIG{})", name) : "",
-                     last_line(outcome.output));
+  if (sigabbrev_np(status - kShellSignalBase) == nullptr) return fmt::format("ended with exit status {}{}", status, line);
+  return fmt::format("ended with exit status {} (signal {}){}{}", status, name_of_signal(status - kShellSignalBase), allowance(limits),
+                     line);
 }
 
 TriangleMesh read_result(const ToolRun& run, const ProcessOutcome& outcome) {

@@ -82,6 +82,15 @@ TEST_F(ExternalTool, FailsWithTheSignalOfACrash) {
   EXPECT_EQ(failure("sh -c 'kill -SEGV $$' 2> /dev/null; exit $?"), "external:x: sh ended with exit status 139 (signal SIGSEGV)");
 }
 
+TEST_F(ExternalTool, SaysHowMuchMemoryWasAllowedWhereACrashMayComeFromThat) {
+  TriangleMesh mesh = icosphere(0);
+  EXPECT_THAT(
+      [&] {
+        run_tool({"external:x", {"/bin/sh", "-c", "kill -ABRT $$"}, {60, 900, 0}, {}, result()}, mesh, {});
+      },
+      ThrowsMessage<MethodFailed>("external:x: sh was ended by signal SIGABRT with 900 MB allowed"));
+}
+
 TEST_F(ExternalTool, FailsWhenItRunsOutOfTimeAndLeavesNothingRunning) {
   const std::string mark = "31.4159";  // seconds
   EXPECT_EQ(failure("sleep " + mark + " & sleep " + mark, 0.5), "external:x: sh ran out of its 0.5 s");
