@@ -31,7 +31,7 @@ bool has_area_smoothing();
 /// surface drift. With safety constraints and projection CGAL gives up without a word at the first pass after which the surface intersects
 /// itself, and leaves it as that pass left it; the report says so. Without flips the triangles do not change.
 /// \pre has_area_smoothing() if areas are to be smoothed. \throws InvalidMesh unless the mesh is a closed, oriented manifold; MethodFailed
-/// for a triangle without area, which CGAL cannot smooth; Cancelled. Cost: about 4 µs a vertex and round for angles, 60 µs for areas.
+/// for a triangle without area, which CGAL cannot smooth; Cancelled. Cost: about 4 µs a vertex and round for angles, 50 µs for areas.
 AngleAreaReport smooth_angles_and_areas(TriangleMesh& mesh, const AngleAreaOptions& options, const ProgressCallback& progress = {});
 
 }  // namespace smopt::baselines
