@@ -3,6 +3,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "baselines/gamer/angle_weighted_smoothing.h"
 #include "baselines/gamer/angle_weighted_step.h"
@@ -208,6 +209,8 @@ TEST(AngleWeightedStep, GoesOnWithDegenerateTriangles) {
     EXPECT_THAT(after, IsClosedManifold());
   }
   EXPECT_EQ(smoothed(point).points, point.points);
+  // Where two neighbours coincide, the others still propose.
+  EXPECT_GT((stepped(flat)[t[2]] - flat.points[t[2]]).norm(), 1e-3);
 }
 
 TEST(AngleWeightedSmoothing, LeavesIsolatedVerticesWhereTheyAre) {
@@ -379,21 +382,31 @@ TEST(EdgeFlips, KeepTheMeshAClosedManifoldOfTheSameTopology) {
   }
 }
 
-TEST(EdgeFlips, DoNotMakeAnEdgeTwice) {
-  // A flat double pyramid over a ring of twelve: every edge of the ring would turn into the same axis.
+/// A sphere with two poles, 4 and 5, of valence 6, that lie on both sides of two far edges, (0, 1) and (2, 3), whose ends have valence 8: the rule
+/// wants either edge turned into (4, 5). Fans of four triangles, from 1 and 2 and from 3 and 0, close the gaps between the edges.
+TriangleMesh mesh_with_two_ways_to_one_edge() {
   TriangleMesh mesh;
-  const VertexId n = 12, top = n, bottom = n + 1;
-  for (VertexId k = 0; k < n; ++k) mesh.points.emplace_back(std::cos(k * std::numbers::pi / 6), std::sin(k * std::numbers::pi / 6), 0);
-  mesh.points.emplace_back(0, 0, 0.01);
-  mesh.points.emplace_back(0, 0, -0.01);
-  for (VertexId k = 0; k < n; ++k) {
-    mesh.triangles.push_back({k, (k + 1) % n, top});
-    mesh.triangles.push_back({(k + 1) % n, k, bottom});
+  mesh.points = {{1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, 0.2}, {0, 0, -0.2}};
+  mesh.triangles = {{0, 1, 4}, {1, 0, 5}, {2, 3, 4}, {3, 2, 5}};
+  for (const auto& [from, to, y] : {std::tuple<VertexId, VertexId, double>{1, 2, 1.5}, {3, 0, -1.5}}) {
+    const auto first = static_cast<VertexId>(mesh.points.size());
+    const VertexId last = first + 4;
+    for (int k = 0; k <= 4; ++k) mesh.points.emplace_back(0, y, 0.2 - 0.1 * k);
+    mesh.triangles.insert(mesh.triangles.end(), {{from, first, 4}, {first, to, 4}, {last, from, 5}, {to, last, 5}});
+    for (VertexId v = first; v < last; ++v) mesh.triangles.insert(mesh.triangles.end(), {{from, v + 1, v}, {to, v, v + 1}});
   }
-  for (int round = 0; round < 5; ++round) {
-    flip(mesh);
-    ASSERT_THAT(mesh, IsClosedManifold());
-  }
+  return mesh;
+}
+
+TEST(EdgeFlips, DoNotMakeAnEdgeTwice) {
+  TriangleMesh mesh = mesh_with_two_ways_to_one_edge();
+  ASSERT_THAT(mesh, IsClosedManifold());
+  ASSERT_TRUE(rule_wants_flip(mesh, 0, 1, 4, 5));
+  ASSERT_TRUE(rule_wants_flip(mesh, 2, 3, 4, 5));
+  flip(mesh);
+  EXPECT_THAT(mesh, IsClosedManifold());
+  EXPECT_TRUE(has_edge(mesh, 4, 5));
+  EXPECT_NE(has_edge(mesh, 0, 1), has_edge(mesh, 2, 3));
 }
 
 TEST(EdgeFlips, LeaveATetrahedronAndARegularMeshAlone) {
