@@ -5,6 +5,7 @@
 #include "baselines/external/external_methods.h"
 #include "baselines/gamer/angle_weighted_smoothing.h"
 #include "baselines/hc.h"
+#include "baselines/iso2mesh/iso2mesh_method.h"
 #include "baselines/laplacian.h"
 #include "baselines/meshlab.h"
 #include "baselines/taubin.h"
@@ -16,6 +17,7 @@ void register_baselines(MethodRegistry& registry) {
   registry.add(taubin_method());
   registry.add(hc_method());
   registry.add(cotangent_method());
+  registry.add(iso2mesh_method());
   registry.add(meshlab_method());
   register_cgal_methods(registry);
   registry.add(gamer_method());
