@@ -94,9 +94,13 @@ void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSu
   add_simulations(record, initial.mesh, progress);
 }
 
-TriangleMesh run_method_case(Json& record, const Method& method, const TriangleMesh& initial, const JudgedMesh& input, int repeats,
-                             const ProgressCallback& progress) {
-  const OptionValues options(method.options, {});
+std::size_t vertices_after(const Method& method, const OptionValues& options, const TriangleMesh& initial,
+                           const ProgressCallback& progress) {
+  return run_once(method, options, initial, progress).mesh.vertex_count();
+}
+
+TriangleMesh run_method_case(Json& record, const Method& method, const OptionValues& options, const TriangleMesh& initial,
+                             const JudgedMesh& input, int repeats, const ProgressCallback& progress) {
   record["options"] = options_json(method, options);
   record["options"]["cavities"] = to_string(CavityPolicy::delete_cavities);
   record["threads"] = kTimedThreads;

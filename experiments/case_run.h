@@ -26,9 +26,13 @@ JudgedMesh prepare_input(const TriangleMesh& initial);
 /// Fills the record of the mesh as it was generated: its metrics (before and after are the same) and TetGen.
 void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface, const ProgressCallback& progress);
 
-/// Runs a method with its defaults, `repeats` times on one thread from the initial mesh on (validity and cavities are timed too), judges
+/// How many vertices a method's result has. \throws whatever the method throws.
+std::size_t vertices_after(const Method& method, const OptionValues& options, const TriangleMesh& initial,
+                           const ProgressCallback& progress);
+
+/// Runs a method, `repeats` times on one thread from the initial mesh on (validity and cavities are timed too), judges
 /// the result and tries TetGen, and fills the record as far as it gets. \return the improved mesh. \throws whatever the method throws.
-TriangleMesh run_method_case(Json& record, const Method& method, const TriangleMesh& initial, const JudgedMesh& input, int repeats,
-                             const ProgressCallback& progress);
+TriangleMesh run_method_case(Json& record, const Method& method, const OptionValues& options, const TriangleMesh& initial,
+                             const JudgedMesh& input, int repeats, const ProgressCallback& progress);
 
 }  // namespace smopt::experiments

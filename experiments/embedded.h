@@ -6,6 +6,7 @@
 namespace smopt::experiments::embedded {
 
 std::string_view datasets_json();  ///< datasets.json
+std::string_view methods_json();   ///< methods.json
 std::string_view paper_table1();   ///< paper/table1.csv
 std::string_view paper_table2();   ///< paper/table2.csv
 std::string_view paper_table3();   ///< paper/table3.csv

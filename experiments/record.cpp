@@ -1,17 +1,14 @@
 #include "experiments/record.h"
 
 #include <algorithm>
-#include <array>
 
-#include "experiments/run_report.h"
 #include "experiments/machine.h"
+#include "experiments/method_cases.h"
+#include "experiments/run_report.h"
 #include "smopt/version.h"
 
 namespace smopt::experiments {
 namespace {
-
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kMethodTitles = {
-    {{"initial", "initial"}, {"smopt", "SMOPT"}, {"laplacian", "plain Laplacian"}, {"iso2mesh", "ISO2mesh"}}};
 
 Json molecule_json(const Dataset& dataset) {
   return {{"name", dataset.name},
@@ -43,9 +40,7 @@ std::filesystem::path record_path(const std::filesystem::path& directory, std::s
 }
 
 std::string method_title(std::string_view method) {
-  const auto* const found =
-      std::find_if(kMethodTitles.begin(), kMethodTitles.end(), [&](const auto& entry) { return entry.first == method; });
-  return std::string(found == kMethodTitles.end() ? method : found->second);
+  return find_method_case(method).title;
 }
 
 Json record_header(const Dataset& dataset, std::string_view method) {
@@ -56,6 +51,7 @@ Json record_header(const Dataset& dataset, std::string_view method) {
   record["molecule"] = molecule_json(dataset);
   record["surface"] = surface_json(dataset.surface);
   record["method"] = method;
+  record["registered_method"] = find_method_case(method).method;
   record["method_title"] = method_title(method);
   record["version"] = version();
   record["compiler"] = compiler();
@@ -92,6 +88,11 @@ void mark_done(Json& record) {
 
 void mark_failed(Json& record, std::string_view reason) {
   record["status"] = "failed";
+  record["reason"] = reason;
+}
+
+void mark_not_installed(Json& record, std::string_view reason) {
+  record["status"] = "not installed";
   record["reason"] = reason;
 }
 

@@ -20,11 +20,11 @@ inline constexpr int kRecordSchema = 1;
 /// Where the record of a case is: `directory`/records/<molecule>/<method>.json.
 std::filesystem::path record_path(const std::filesystem::path& directory, std::string_view molecule, std::string_view method);
 
-/// How tables and figures call a method: "SMOPT" for `smopt`.
+/// How tables and figures call a case: "SMOPT" for `smopt`.
 std::string method_title(std::string_view method);
 
 /// The part of a record that is known before the case runs: molecule, surface, method, version, machine. Its status is "failed" until
-/// `mark_done`, so that a record is never taken for more than it is.
+/// `mark_done`, so that a record is never taken for more than it is. `method` is the case's name, `registered_method` the registry's.
 Json record_header(const Dataset& dataset, std::string_view method);
 
 /// What is known once the surface is there: atoms, the digest of the molecule's file, the generator's report.
@@ -35,6 +35,8 @@ void add_repeats(Json& record, std::span<const StageTimes> repeats);
 
 void mark_done(Json& record);
 void mark_failed(Json& record, std::string_view reason);
+/// Of a case whose method needs a program that is not here: neither done nor failed.
+void mark_not_installed(Json& record, std::string_view reason);
 
 /// The median; of an even number the mean of the middle two. \pre not empty
 double median(std::vector<double> values);

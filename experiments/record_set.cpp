@@ -7,6 +7,7 @@
 #include <set>
 
 #include "experiments/datasets.h"
+#include "experiments/method_cases.h"
 #include "experiments/record.h"
 #include "smopt/error.h"
 #include "smopt/io/file.h"
@@ -76,7 +77,9 @@ std::vector<std::string> RecordSet::methods() const {
   std::set<std::string> names;
   for (const auto& [molecule, methods] : records_)
     for (const auto& [name, record] : methods) names.insert(name);
-  return ordered(std::move(names), {"initial", "smopt"});
+  std::vector<std::string> first = {std::string(kInitial)};
+  for (const MethodCase& method : all_method_cases()) first.push_back(method.name);
+  return ordered(std::move(names), first);
 }
 
 const RecordSet::Json* RecordSet::find(std::string_view molecule, std::string_view method) const {
@@ -88,6 +91,12 @@ const RecordSet::Json* RecordSet::find(std::string_view molecule, std::string_vi
 
 const RecordSet::Json& RecordSet::any_of(std::string_view molecule) const {
   return records_.find(molecule)->second.begin()->second;
+}
+
+std::vector<std::string> paper_methods(const RecordSet& records) {
+  std::vector<std::string> methods = records.methods();
+  std::erase_if(methods, [](const std::string& name) { return name != kInitial && !find_method_case(name).is_in_paper_tables; });
+  return methods;
 }
 
 bool is_done(const nlohmann::ordered_json* record) {

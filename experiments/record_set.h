@@ -22,8 +22,8 @@ class RecordSet {
   /// Adds a record, in place of one of the same case. \throws InvalidInput naming `source` when it is none.
   void add(Json record, const std::string& source);
 
-  /// Names in the order in which tables and figures show them: molecules as in datasets.json, then by name; methods: initial, smopt, then
-  /// by name.
+  /// Names in the order in which tables and figures show them: molecules as in datasets.json, then by name; methods: initial, as in
+  /// methods.json, then by name.
   [[nodiscard]] std::vector<std::string> molecules() const;
   [[nodiscard]] std::vector<std::string> methods() const;
 
@@ -35,6 +35,10 @@ class RecordSet {
  private:
   std::map<std::string, std::map<std::string, Json, std::less<>>, std::less<>> records_;
 };
+
+/// The methods of the records that belong beside the paper's in its tables and figures: the initial mesh, and the cases that methods.json
+/// says so of.
+std::vector<std::string> paper_methods(const RecordSet& records);
 
 /// Whether there is a record and its case ended well.
 bool is_done(const nlohmann::ordered_json* record);

@@ -13,12 +13,19 @@ std::vector<Dataset> chosen_datasets(const ReproduceOptions& options) {
   return datasets;
 }
 
+std::vector<std::string> chosen_methods(const ReproduceOptions& options) {
+  if (options.methods != std::vector<std::string>{"all"}) return options.methods;
+  std::vector<std::string> methods = {std::string(kInitial)};
+  for (const MethodCase& method_case : all_method_cases()) methods.push_back(method_case.name);
+  return methods;
+}
+
 }  // namespace
 
 RunSummary reproduce(const ReproduceOptions& options, const RunObserver& observer) {
   RunOptions run;
   run.datasets = chosen_datasets(options);
-  run.methods = options.methods;
+  run.methods = chosen_methods(options);
   run.directory = options.directory;
   run.repeats = options.is_quick ? 1 : options.repeats;
   run.keeps_meshes = options.keeps_meshes;

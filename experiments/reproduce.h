@@ -11,12 +11,13 @@ namespace smopt::experiments {
 
 /// What `smopt reproduce` was asked to do.
 struct ReproduceOptions {
-  std::filesystem::path directory = "results/run";                       ///< where records, tables and figures go
-  std::vector<std::string> molecules;                                    ///< names of datasets; empty: all, with `is_quick` the small ones
-  std::vector<std::string> methods = {"initial", "smopt", "laplacian"};  ///< "initial", and names of registered methods
-  bool is_quick = false;                                                 ///< small molecules only, one repeat
-  int repeats = 3;                                                       ///< of everything that is timed; ≥ 1; 1 with `is_quick`
-  bool keeps_meshes = false;                                             ///< write each case's mesh to `directory`/meshes
+  std::filesystem::path directory = "results/run";  ///< where records, tables and figures go
+  std::vector<std::string> molecules;               ///< names of datasets; empty: all, with `is_quick` the small ones
+  std::vector<std::string> methods = {"initial", "smopt", "laplacian", "iso2mesh",
+                                      "meshlab"};  ///< as RunOptions; "all": all of methods.json
+  bool is_quick = false;                           ///< small molecules only, one repeat
+  int repeats = 3;                                 ///< of everything that is timed; ≥ 1; 1 with `is_quick`
+  bool keeps_meshes = false;                       ///< write each case's mesh to `directory`/meshes
 };
 
 /// Runs the experiments over the datasets and writes `directory`/records, tables and figures.

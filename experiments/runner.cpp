@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "experiments/case_run.h"
 #include "experiments/record.h"
+#include "experiments/record_set.h"
 #include "smopt/error.h"
 #include "smopt/io/file.h"
 #include "smopt/io/mesh_io.h"
@@ -61,6 +63,15 @@ class SharedMeshes {
   const JudgedMesh& input() {
     return remembered(input_, [&] { return prepare_input(surface().mesh); });
   }
+  /// How many vertices the result of a case has.
+  std::size_t vertices_of(const std::string& name, const MethodRegistry& registry) {
+    return remembered(vertices_[name], [&] {
+      const MethodCase method_case = find_method_case(name);
+      const Method& method = registry.find(method_case.method);
+      return vertices_after(method, OptionValues(method.options, method_case.options), surface().mesh, progress_);
+    });
+  }
+  void remember_vertices_of(const std::string& name, std::size_t vertices) { vertices_[name].value = vertices; }
 
  private:
   template <class T>
@@ -91,7 +102,15 @@ class SharedMeshes {
   Remembered<GeneratedSurface> surface_;
   Remembered<JudgedMesh> initial_;
   Remembered<JudgedMesh> input_;
+  std::map<std::string, Remembered<std::size_t>> vertices_;
 };
+
+/// The options of a case, the number of vertices that it takes from another among them.
+OptionValues options_of(const MethodCase& method_case, const MethodRegistry& registry, SharedMeshes& meshes) {
+  std::map<std::string, std::string> given = method_case.options;
+  if (!method_case.vertices_of.empty()) given["vertices"] = fmt::format("{}", meshes.vertices_of(method_case.vertices_of, registry));
+  return {registry.find(method_case.method).options, given};
+}
 
 /// Makes the folder that `path` is to be in; if that fails, so does writing there, which says why.
 void make_folder_of(const std::filesystem::path& path) {
@@ -125,7 +144,10 @@ void run_case(Json& record, const RunOptions& options, const MethodRegistry& reg
   }
   const JudgedMesh& input = meshes.input();
   keep_mesh(options, dataset, "without-cavities", input.mesh);
-  const TriangleMesh improved = run_method_case(record, registry.find(method), meshes.surface().mesh, input, options.repeats, progress);
+  const MethodCase method_case = find_method_case(method);
+  const TriangleMesh improved = run_method_case(record, registry.find(method_case.method), options_of(method_case, registry, meshes),
+                                                meshes.surface().mesh, input, options.repeats, progress);
+  meshes.remember_vertices_of(method, improved.vertex_count());
   keep_mesh(options, dataset, method, improved);
 }
 
@@ -138,6 +160,8 @@ Json record_case(const RunOptions& options, const MethodRegistry& registry, cons
     mark_done(record);
   } catch (const Cancelled&) {
     throw;
+  } catch (const NotInstalled& error) {
+    mark_not_installed(record, error.what());
   } catch (const std::bad_alloc&) {
     mark_failed(record, "out of memory");
   } catch (const std::exception& error) {
@@ -151,33 +175,43 @@ std::string pairs_text(const Json& record) {
   return pairs.is_null() ? "intersecting pairs not counted" : fmt::format("{} intersecting pairs", pairs.get<long>());
 }
 
+std::string divergence_text(const Json& record) {
+  const auto step = number_at(&record, "/diverged_at_step");
+  return step ? fmt::format("; diverged at step {:.0f}", *step) : "";
+}
+
 std::string case_line(const Json& record, const Workload& work) {
   const std::string name = fmt::format("[{}/{}] {} {}", work.finished(), work.cases(), record.at("molecule").at("name").get<std::string>(),
                                        record.at("method").get<std::string>());
   const std::string left = work.finished() == work.cases() ? "" : fmt::format("; about {:.0f} s left", work.seconds_left());
-  if (record.at("status") != "done") return fmt::format("{}: failed: {}{}", name, record.at("reason").get<std::string>(), left);
-  return fmt::format("{}: {} vertices, {}, TetGen p {}, pY {}; {:.2f} s CPU{}", name, record.at("output").at("vertices").get<long>(),
-                     pairs_text(record), record.at("tetgen").at("p").at("status").get<std::string>(),
-                     record.at("tetgen").at("pY").at("status").get<std::string>(),
-                     record.at("cpu_seconds").at(record.at("method") == kInitial ? "generate" : "total").get<double>(), left);
+  const auto status = record.at("status").get<std::string>();
+  if (status != "done") return fmt::format("{}: {}: {}{}", name, status, record.at("reason").get<std::string>(), left);
+  return fmt::format(
+      "{}: {} vertices, {}, TetGen p {}, pY {}; {:.2f} s CPU{}{}", name, record.at("output").at("vertices").get<long>(), pairs_text(record),
+      record.at("tetgen").at("p").at("status").get<std::string>(), record.at("tetgen").at("pY").at("status").get<std::string>(),
+      record.at("cpu_seconds").at(record.at("method") == kInitial ? "generate" : "total").get<double>(), divergence_text(record), left);
 }
 
 CaseOutcome outcome_of(const Json& record) {
-  const bool is_done = record.at("status") == "done";
-  return {record.at("molecule").at("name").get<std::string>(), record.at("method").get<std::string>(), is_done,
-          is_done ? "" : record.at("reason").get<std::string>()};
+  const auto status = record.at("status").get<std::string>();
+  const std::string reason = status == "done" ? "" : record.at("reason").get<std::string>();
+  return {record.at("molecule").at("name").get<std::string>(), record.at("method").get<std::string>(),
+          status == "done"            ? CaseStatus::done
+          : status == "not installed" ? CaseStatus::not_installed
+                                      : CaseStatus::failed,
+          reason};
 }
 
 void require_known(const RunOptions& options, const MethodRegistry& registry) {
   if (options.repeats < 1) throw InvalidOption(fmt::format("--repeats: expected at least 1, got {}", options.repeats));
   for (const std::string& method : options.methods)
-    if (method != kInitial) static_cast<void>(registry.find(method));  // throws where there is none
+    if (method != kInitial) static_cast<void>(registry.find(find_method_case(method).method));  // throws where there is none
 }
 
 }  // namespace
 
-std::size_t RunSummary::failures() const {
-  return static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), [](const CaseOutcome& c) { return !c.is_done; }));
+std::size_t RunSummary::count(CaseStatus status) const {
+  return static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), [&](const CaseOutcome& c) { return c.status == status; }));
 }
 
 RunSummary run_cases(const RunOptions& options, const MethodRegistry& registry, const RunObserver& observer) {

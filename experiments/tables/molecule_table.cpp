@@ -76,6 +76,7 @@ Cell count_of(const RecordSet::Json* record, const std::string& pointer) {
 
 Cell count_or_reason(const RecordSet::Json* record, const std::string& pointer) {
   if (record == nullptr) return "not run";
+  if (text_at(record, "/status") == "not installed") return "not installed";
   if (!is_done(record)) return "failed: " + text_at(record, "/reason").value_or("no reason given");
   return count_cell(number_at(record, pointer));
 }

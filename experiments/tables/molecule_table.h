@@ -35,7 +35,7 @@ std::vector<MoleculeRow> molecule_rows(const RecordSet& records);
 MoleculeColumn paper_column(int number, const std::string& paper_id, std::string title);
 
 /// The number at a JSON pointer of the record, nothing when the case failed or has none. For a column that tells of the case as a whole:
-/// "failed: <reason>" or "not run" in its place.
+/// "failed: <reason>", "not installed" or "not run" in its place.
 Cell count_of(const RecordSet::Json* record, const std::string& pointer);
 Cell count_or_reason(const RecordSet::Json* record, const std::string& pointer);
 

@@ -18,9 +18,9 @@ bool is_in_paper(const std::string& method) {
   return std::find(kPaperMethods.begin(), kPaperMethods.end(), method) != kPaperMethods.end();
 }
 
-/// Those of the paper's table that ran, the others that ran, and the paper's that did not.
+/// Those that ran and belong beside the paper's, and the paper's that did not run.
 std::vector<std::string> shown_methods(const RecordSet& records) {
-  std::vector<std::string> methods = records.methods();
+  std::vector<std::string> methods = paper_methods(records);
   for (const char* method : kPaperMethods)
     if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.emplace_back(method);
   return methods;

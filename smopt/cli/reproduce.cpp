@@ -8,6 +8,7 @@
 #include "experiments/datasets.h"
 #include "smopt/cli/command.h"
 #include "smopt/cli/progress_bar.h"
+#include "smopt/io/file.h"
 
 namespace smopt::cli {
 namespace {
@@ -18,15 +19,29 @@ std::string dataset_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// "20 cases, 1 failed, 2 not installed, 31 s".
+std::string counts_of(const experiments::RunSummary& summary) {
+  using experiments::CaseStatus;
+  const std::size_t absent = summary.count(CaseStatus::not_installed);
+  return fmt::format("{} cases, {} failed, {}{:.0f} s", summary.cases.size(), summary.count(CaseStatus::failed),
+                     absent > 0 ? fmt::format("{} not installed, ", absent) : "", summary.seconds);
+}
+
+std::string case_names() {
+  std::vector<std::string> names = {std::string(experiments::kInitial)};
+  for (const experiments::MethodCase& method_case : experiments::all_method_cases()) names.push_back(method_case.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void run(const experiments::ReproduceOptions& options, Context& context) {
   ProgressBar bar(context.is_quiet);
   experiments::RunObserver observer;
   observer.progress = bar.callback();
   if (!context.is_quiet) observer.line = [&bar](std::string_view line) { bar.print_line(line); };
   const experiments::RunSummary summary = experiments::reproduce(options, observer);
-  if (!context.is_quiet)
-    fmt::print("{} cases, {} failed, {:.0f} s; tables and figures are in {}\n", summary.cases.size(), summary.failures(), summary.seconds,
-               options.directory.string());
+  if (context.is_quiet) return;
+  fmt::print("\n{}\n{}; tables and figures are in {}\n", read_file(options.directory / "tables" / "methods.md"), counts_of(summary),
+             options.directory.string());
 }
 
 }  // namespace
@@ -39,13 +54,17 @@ void add_reproduce(CLI::App& app, Context& context) {
       "Molecules: " +
       dataset_names() +
       "\n"
+      "Methods: " +
+      case_names() +
+      "\n"
       "\n"
       "Examples:\n"
       "  smopt reproduce\n"
-      "  smopt reproduce --molecules ache-monomer --methods initial,smopt,laplacian -o results/ache");
+      "  smopt reproduce --molecules ache-monomer --methods initial,smopt,laplacian -o results/ache\n"
+      "  smopt reproduce --molecules ache-monomer --methods all -o results/ache");
   command->add_option("-o,--output", options->directory, "folder for records, tables and figures")->capture_default_str();
   command->add_option("--molecules", options->molecules, "only these, separated by commas")->delimiter(',');
-  command->add_option("--methods", options->methods, "\"initial\" and names from `smopt methods`, separated by commas")
+  command->add_option("--methods", options->methods, "names from the list above or from `smopt methods`, separated by commas, or all")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--repeats", options->repeats, "how often everything that is timed is run")

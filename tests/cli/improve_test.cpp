@@ -29,9 +29,13 @@ const json kContract = json::parse(R"(
  "cpu_seconds": {"read": 0, "validity": 0, "cavities": 0, "redundant": 0, "smoothing": 0, "write": 0, "total": 0},
  "peak_memory_mb": 0, "threads": 0, "version": ""})");
 
+/// The methods that need nothing that may not be here: no program of others, no library that was absent when this was built.
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
-  for (const auto& method : json::parse(run_smopt({"methods", "--json"}).out)) names.push_back(method["name"]);
+  for (const auto& method : json::parse(run_smopt({"methods", "--json"}).out)) {
+    const bool is_built = method["note"].get<std::string>().find("not built") == std::string::npos;
+    if (is_built && !method["name"].get<std::string>().starts_with("external:")) names.push_back(method["name"]);
+  }
   return names;
 }
 

@@ -24,14 +24,15 @@ void save(const TemporaryFolder& folder, const Json& record) {
   std::ofstream(path) << record.dump();
 }
 
-TEST(RecordSet, ReadsWhatIsThereInTheOrderOfTheDatasets) {
+TEST(RecordSet, ReadsWhatIsThereInTheOrderOfTheListsOfMoleculesAndMethods) {
   const TemporaryFolder folder;
   for (const char* molecule : {"aaa", "1a63", "ache-monomer"})
-    for (const char* method : {"laplacian", "initial", "hc", "smopt"})
+    for (const char* method : {"my-method", "laplacian", "initial", "hc", "smopt"})
       save(folder, testing::made_record(testing::made_dataset(molecule), method));
   const RecordSet records = RecordSet::load(folder.path());
   EXPECT_THAT(records.molecules(), ElementsAre("ache-monomer", "1a63", "aaa"));
-  EXPECT_THAT(records.methods(), ElementsAre("initial", "smopt", "hc", "laplacian"));
+  EXPECT_THAT(records.methods(), ElementsAre("initial", "smopt", "laplacian", "hc", "my-method"));
+  EXPECT_THAT(paper_methods(records), ElementsAre("initial", "smopt", "laplacian"));
   EXPECT_NE(records.find("aaa", "hc"), nullptr);
   EXPECT_EQ(records.find("aaa", "taubin"), nullptr);
   EXPECT_EQ(records.find("bbb", "hc"), nullptr);

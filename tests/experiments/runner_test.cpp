@@ -10,6 +10,7 @@
 #include "smopt/io/sha256.h"
 #include "tests/experiments/made_records.h"
 #include "tests/support/files.h"
+#include "tests/support/shapes.h"
 
 namespace smopt::experiments {
 namespace {
@@ -61,7 +62,7 @@ TEST(Runner, RunsEveryCaseOfAMoleculeAndRecordsIt) {
   options.repeats = 2;
   const RunSummary summary = run_cases(options, baselines::all_methods());
   EXPECT_EQ(summary.cases.size(), 3U);
-  EXPECT_EQ(summary.failures(), 0U);
+  EXPECT_EQ(summary.count(CaseStatus::failed), 0U);
   for (const std::string method : {"initial", "smopt", "laplacian"}) {
     const Json record = record_of(options, "tiny", method);
     EXPECT_EQ(record.at("status"), "done") << method;
@@ -136,11 +137,52 @@ TEST(Runner, AMethodThatFailsIsARecordWithItsReasonAndTheOthersGoOn) {
   registry.add(method_that("nothing", [](TriangleMesh&) {}));
   const RunOptions options = options_for(folder, {tiny(folder)}, {"throws", "runs-out", "nothing"});
   const RunSummary summary = run_cases(options, registry);
-  EXPECT_EQ(summary.failures(), 2U);
+  EXPECT_EQ(summary.count(CaseStatus::failed), 2U);
   EXPECT_EQ(record_of(options, "tiny", "throws").at("status"), "failed");
   EXPECT_THAT(record_of(options, "tiny", "throws").at("reason").get<std::string>(), HasSubstr("the method's own words"));
   EXPECT_EQ(record_of(options, "tiny", "runs-out").at("reason"), "out of memory");
   EXPECT_EQ(record_of(options, "tiny", "nothing").at("status"), "done");
+}
+
+TEST(Runner, ACaseMayAskForTheVerticesOfAnothersResult) {
+  // Of both orders the same: where the other has not run, it is run for its number.
+  const TemporaryFolder folder;
+  MethodRegistry registry;
+  registry.add(method_that("smopt", [](TriangleMesh& mesh) { mesh = testing::icosphere(0); }));
+  Method iso2mesh = method_that("iso2mesh", [](TriangleMesh&) {});
+  for (const char* name : {"vertices", "placement", "smoother", "alpha", "rounds"})
+    iso2mesh.options.push_back({name, MethodOption::Kind::text, "", "", "", {}});
+  registry.add(iso2mesh);
+  RunOptions options = options_for(folder, {tiny(folder)}, {"iso2mesh"});
+  run_cases(options, registry);
+  EXPECT_EQ(record_of(options, "tiny", "iso2mesh").at("options").at("vertices"), "12");
+  options.methods = {"smopt", "iso2mesh"};
+  run_cases(options, registry);
+  EXPECT_EQ(record_of(options, "tiny", "iso2mesh").at("options").at("vertices"), "12");
+}
+
+TEST(Runner, AVariantOfAMethodIsACaseOfItsOwn) {
+  const TemporaryFolder folder;
+  const RunOptions options = options_for(folder, {tiny(folder)}, {"meshlab-uniform"});
+  run_cases(options, baselines::all_methods());
+  const Json record = record_of(options, "tiny", "meshlab-uniform");
+  EXPECT_EQ(record.at("registered_method"), "meshlab");
+  EXPECT_EQ(record.at("options").at("weights"), "uniform");
+  EXPECT_EQ(record.at("options").at("rounds"), 100);
+}
+
+TEST(Runner, AMethodWhoseProgramIsAbsentIsNoFailure) {
+  const TemporaryFolder folder;
+  MethodRegistry registry;
+  registry.add(method_that("absent", [](TriangleMesh&) { throw NotInstalled("the program is not here"); }));
+  registry.add(method_that("crashes", [](TriangleMesh&) { throw MethodFailed("the program crashed"); }));
+  const RunOptions options = options_for(folder, {tiny(folder)}, {"absent", "crashes"});
+  const RunSummary summary = run_cases(options, registry);
+  EXPECT_EQ(summary.count(CaseStatus::not_installed), 1U);
+  EXPECT_EQ(summary.count(CaseStatus::failed), 1U);
+  EXPECT_EQ(record_of(options, "tiny", "absent").at("status"), "not installed");
+  EXPECT_EQ(record_of(options, "tiny", "absent").at("reason"), "the program is not here");
+  EXPECT_EQ(record_of(options, "tiny", "crashes").at("status"), "failed");
 }
 
 TEST(Runner, AMethodThatSpoilsTheMeshIsMeasuredAllTheSame) {
@@ -148,7 +190,7 @@ TEST(Runner, AMethodThatSpoilsTheMeshIsMeasuredAllTheSame) {
   MethodRegistry registry;
   registry.add(method_that("spoils", [](TriangleMesh& mesh) { mesh.triangles.resize(mesh.triangles.size() / 2); }));
   const RunOptions options = options_for(folder, {tiny(folder)}, {"spoils"});
-  EXPECT_EQ(run_cases(options, registry).failures(), 0U);
+  EXPECT_EQ(run_cases(options, registry).count(CaseStatus::failed), 0U);
   const Json record = record_of(options, "tiny", "spoils");
   EXPECT_EQ(record.at("metrics").at("after").at("closed"), false);
   EXPECT_TRUE(record.at("metrics").at("after").at("volume").is_null());
@@ -162,7 +204,7 @@ TEST(Runner, AMoleculeThatIsMissingFailsItsCasesAndNamesThePackage) {
   missing.package = "apbs-data";
   const RunOptions options = options_for(folder, {missing, tiny(folder)}, {"initial", "laplacian"});
   const RunSummary summary = run_cases(options, baselines::all_methods());
-  EXPECT_EQ(summary.failures(), 2U);
+  EXPECT_EQ(summary.count(CaseStatus::failed), 2U);
   for (const char* method : {"initial", "laplacian"}) {
     const std::string reason = record_of(options, "missing", method).at("reason").get<std::string>();
     EXPECT_THAT(reason, ::testing::AllOf(HasSubstr("nowhere.pqr"), HasSubstr("apbs-data"))) << method;
@@ -236,7 +278,7 @@ TEST(Reproduce, GivesRecordsTablesAndFiguresOfASmallMolecule) {
   options.molecules = {"fas2"};
   options.is_quick = true;
   if (smopt::testing::apbs_molecule("misc/fas2.pqr").empty()) GTEST_SKIP() << "apbs-data is not installed";
-  EXPECT_EQ(reproduce(options).failures(), 0U);
+  EXPECT_EQ(reproduce(options).count(CaseStatus::failed), 0U);
   for (const char* name :
        {"tables/table1.md", "tables/table2.csv", "tables/table3.tex", "figures/fig5.svg", "figures/fig6.png", "figures/fig7.svg"})
     EXPECT_FALSE(bytes_of(folder.path() / name).empty()) << name;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/tables/methods_table.h"
 #include "experiments/tables/table1.h"
 #include "experiments/tables/table2.h"
 #include "experiments/tables/table3.h"
@@ -63,9 +64,47 @@ TEST(Tables, ShowThePapersValuesBesideOurs) {
   EXPECT_EQ(cell(three, kAche, "paper_intersecting_pairs_iso2mesh"), "57");
 }
 
+/// What stands in the table of all methods in a method's row.
+std::string cell_of_method(const Table& table, const std::string& title, const std::string& column_id) {
+  Table by_method = table;
+  for (auto& row : by_method.rows) row.front() = row[1];
+  return cell(by_method, title, column_id);
+}
+
+TEST(Tables, TheTableOfMethodsHasARowForEveryCaseHoweverItEnded) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  list[1]["stopped_because"] = "nothing moved";
+  list.push_back(made_record(ache_monomer(), "meshlab"));
+  list.back()["stopped_because"] = "diverged at step 28";
+  list.push_back(failed_record(ache_monomer(), "cgal_remesh", "too thin"));
+  list.push_back(made_record(ache_monomer(), "external:mmgs"));
+  mark_not_installed(list.back(), "mmgs is not installed");
+  const Table table = methods_table(records_of(list));
+  ASSERT_EQ(table.rows.size(), 6U);
+  EXPECT_EQ(cell_text(table.rows[0][1], kDash), "initial");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "intersecting_pairs"), "7");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "ended"), "nothing moved");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "tetgen_p"), "failed");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "tetgen_pY"), "success");
+  EXPECT_EQ(cell_of_method(table, "MeshLab", "ended"), "diverged at step 28");
+  EXPECT_EQ(cell_of_method(table, "CGAL, isotropic remeshing", "ended"), "failed: too thin");
+  EXPECT_EQ(cell_of_method(table, "MMG", "ended"), "not installed");
+}
+
+TEST(Tables, TheTableOfMethodsGivesChangesAgainstTheMeshThatTheMethodsGot) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  for (Json& record : list) {
+    record["metrics"]["before"]["area"] = 200.0;
+    record["metrics"]["after"]["area"] = 150.0;
+  }
+  const Table table = methods_table(records_of(list));
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "area_change_percent"), "-25.00");
+  EXPECT_EQ(cell_of_method(table, "initial", "area_change_percent"), kDash) << "nothing was done to it";
+}
+
 TEST(Tables, EveryRowIsAsLongAsTheHead) {
   const RecordSet records = records_of(three_methods(ache_monomer()));
-  for (const Table& table : {table1(records), table2(records), table3(records)})
+  for (const Table& table : {table1(records), table2(records), table3(records), methods_table(records)})
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.name;
 }
 
@@ -142,10 +181,13 @@ TEST(Table2, HasNoRatioToAMethodThatTookNoTime) {
   EXPECT_EQ(cell(table, kAche, "smoothing_to_plain_laplacian"), kDash);
 }
 
-TEST(Table3, ShowsEveryMethodThatRan) {
+TEST(Table3, ShowsTheMethodsThatBelongBesideThePapers) {
   std::vector<Json> list = three_methods(ache_monomer());
+  list.push_back(made_record(ache_monomer(), "meshlab"));
   list.push_back(made_record(ache_monomer(), "taubin"));
-  EXPECT_EQ(cell(table3(records_of(list)), kAche, "vertices_taubin"), "400");
+  const Table table = table3(records_of(list));
+  EXPECT_EQ(cell(table, kAche, "intersecting_pairs_meshlab"), "7");
+  EXPECT_EQ(cell(table, kAche, "intersecting_pairs_taubin"), "no column intersecting_pairs_taubin");
 }
 
 TEST(Table3, ShowsIso2meshBesideThePapersWhenItRan) {
@@ -161,7 +203,7 @@ TEST(Table3, ShowsIso2meshBesideThePapersWhenItRan) {
 TEST(Tables, AreWrittenInThreeForms) {
   const smopt::testing::TemporaryFolder folder;
   write_tables(records_of(three_methods(ache_monomer())), folder.path() / "tables");
-  for (const char* name : {"table1", "table2", "table3"})
+  for (const char* name : {"table1", "table2", "table3", "methods"})
     for (const char* ending : {".md", ".csv", ".tex"})
       EXPECT_THAT(smopt::testing::bytes_of(folder.path() / "tables" / (std::string(name) + ending)), HasSubstr("AChE monomer"));
 }

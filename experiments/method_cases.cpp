@@ -1,0 +1,54 @@
+#include "experiments/method_cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/embedded.h"
+#include "smopt/error.h"
+
+namespace smopt::experiments {
+namespace {
+
+using Json = nlohmann::json;
+
+MethodCase parse_case(const Json& json) {
+  MethodCase result;
+  result.name = json.at("name").get<std::string>();
+  result.title = json.at("title").get<std::string>();
+  result.method = json.value("method", result.name);
+  result.options = json.value("options", result.options);
+  result.vertices_of = json.value("vertices_of", "");
+  result.is_in_paper_tables = json.value("is_in_paper_tables", false);
+  return result;
+}
+
+}  // namespace
+
+std::vector<MethodCase> parse_method_cases(std::string_view text) {
+  std::vector<MethodCase> cases;
+  try {
+    const Json json = Json::parse(text);
+    for (const Json& entry : json.at("cases")) cases.push_back(parse_case(entry));
+  } catch (const Json::exception& error) {
+    throw InvalidInput(fmt::format("methods: case {}: {}", cases.size(), error.what()));
+  }
+  return cases;
+}
+
+const std::vector<MethodCase>& all_method_cases() {
+  static const std::vector<MethodCase> cases = parse_method_cases(embedded::methods_json());
+  return cases;
+}
+
+MethodCase find_method_case(std::string_view name) {
+  const std::vector<MethodCase>& cases = all_method_cases();
+  const auto found = std::find_if(cases.begin(), cases.end(), [&](const MethodCase& c) { return c.name == name; });
+  if (found != cases.end()) return *found;
+  MethodCase unlisted;
+  unlisted.name = unlisted.title = unlisted.method = name;
+  return unlisted;
+}
+
+}  // namespace smopt::experiments

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace smopt::experiments {
+
+/// The pseudo-method: the mesh as it was generated.
+inline constexpr std::string_view kInitial = "initial";
+
+/// A method as the experiments run it: with which options, and what it is called.
+struct MethodCase {
+  std::string name;                            ///< as on the command line and in file names
+  std::string title;                           ///< as in tables and figures
+  std::string method;                          ///< its name in the registry of methods
+  std::map<std::string, std::string> options;  ///< those that are not the method's defaults
+  std::string vertices_of;                     ///< the case as many vertices as whose result are asked for; empty: none is
+  bool is_in_paper_tables = false;             ///< shown in Table 3 and Figures 5 to 7, which are the paper's
+};
+
+/// The cases of methods.json, in its order, which is that of tables and figures.
+const std::vector<MethodCase>& all_method_cases();
+
+/// Reads a text of the form of methods.json. \throws InvalidInput saying which entry is wrong.
+std::vector<MethodCase> parse_method_cases(std::string_view json);
+
+/// The case of this name; for another name the registered method of that name with its defaults (which need not be there).
+MethodCase find_method_case(std::string_view name);
+
+}  // namespace smopt::experiments

@@ -1,0 +1,99 @@
+#include "experiments/tables/methods_table.h"
+
+#include <functional>
+
+#include "experiments/method_cases.h"
+#include "experiments/tables/molecule_table.h"
+
+namespace smopt::experiments {
+namespace {
+
+using Json = RecordSet::Json;
+
+/// A column and what stands in it in a case's row.
+struct CaseColumn {
+  Column head;
+  std::function<Cell(const Json&)> cell;
+};
+
+CaseColumn count_column(std::string id, std::string title, std::string pointer) {
+  return {{std::move(id), std::move(title)}, [pointer](const Json& record) { return count_cell(number_at(&record, pointer)); }};
+}
+
+CaseColumn number_column(std::string id, std::string title, std::string pointer, double factor, int decimals) {
+  return {{std::move(id), std::move(title)}, [=](const Json& record) {
+            const auto value = number_at(&record, pointer);
+            return value ? Cell(Decimal{factor * *value, decimals}) : Cell();
+          }};
+}
+
+bool is_initial(const Json& record) {
+  return text_at(&record, "/method") == kInitial;
+}
+
+/// Per cent against the mesh that the method was given; nothing for that mesh as generated.
+CaseColumn change_column(std::string id, std::string title, const std::string& quantity) {
+  return {{std::move(id), std::move(title)}, [quantity](const Json& record) {
+            const auto before = number_at(&record, "/metrics/before/" + quantity), after = number_at(&record, "/metrics/after/" + quantity);
+            return before && after && *before != 0 && !is_initial(record) ? Cell(Decimal{100 * (*after / *before - 1), 2}) : Cell();
+          }};
+}
+
+/// Nothing for the mesh as generated, whose seconds are of all stages alike.
+Cell smoothing_seconds(const Json& record) {
+  return is_initial(record) ? Cell() : decimal_cell(number_at(&record, "/cpu_seconds/smoothing"), 3);
+}
+
+CaseColumn tetgen_column(const std::string& switches) {
+  return {{"tetgen_" + switches, "TetGen -" + switches},
+          [switches](const Json& record) { return text_cell(text_at(&record, "/tetgen/" + switches + "/status")); }};
+}
+
+/// Why the method stopped, or why there is no result.
+Cell ending(const Json& record) {
+  if (is_done(&record)) return text_cell(text_at(&record, "/stopped_because"));
+  const std::string status = text_at(&record, "/status").value_or("failed");
+  return status == "not installed" ? status : status + ": " + text_at(&record, "/reason").value_or("no reason given");
+}
+
+std::vector<CaseColumn> case_columns() {
+  constexpr double kPerCent = 100;
+  return {
+      count_column("vertices", "Vertices", "/metrics/after/vertices"),
+      count_column("intersecting_pairs", "Intersecting pairs", "/metrics/after/intersecting_pairs"),
+      number_column("min_angle_deg", "Smallest angle (°)", "/metrics/after/angle_deg/min", 1, 3),
+      number_column("below_10_percent", "Smallest angle < 10° (%)", "/metrics/after/min_angle_share/below_10", kPerCent, 2),
+      number_column("below_30_percent", "< 30° (%)", "/metrics/after/min_angle_share/below_30", kPerCent, 2),
+      number_column("edge_ratio_below_0.1_percent", "Edge ratio < 0.1 (%)", "/metrics/after/edge_ratio/below_0.1", kPerCent, 2),
+      change_column("area_change_percent", "Area (%)", "area"),
+      change_column("volume_change_percent", "Volume (%)", "volume"),
+      tetgen_column("p"),
+      tetgen_column("pY"),
+      {{"cpu_s_smoothing", "Smoothing, CPU (s)"}, smoothing_seconds},
+      {{"ended", "Ended"}, ending},
+  };
+}
+
+}  // namespace
+
+Table methods_table(const RecordSet& records) {
+  Table table{"methods", "All methods on the same meshes, under the same judge", {{"molecule", "Molecule"}, {"method", "Method"}}, {}, {}};
+  const std::vector<CaseColumn> columns = case_columns();
+  for (const CaseColumn& column : columns) table.columns.push_back(column.head);
+  for (const MoleculeRow& row : molecule_rows(records)) {
+    for (const std::string& method : records.methods()) {
+      const Json* const record = row.record(method);
+      if (record == nullptr) continue;
+      std::vector<Cell>& cells = table.rows.emplace_back();
+      cells.emplace_back(row.title);
+      cells.push_back(text_cell(text_at(record, "/method_title")));
+      for (const CaseColumn& column : columns) cells.push_back(column.cell(*record));
+    }
+  }
+  table.notes.push_back(
+      "Every method was given the initial mesh without its cavities; area and volume are changes against that mesh. Pairs are counted by "
+      "CGAL's exact predicates; \"—\" where there is no such number (coordinates that are not finite, a case that failed).");
+  return table;
+}
+
+}  // namespace smopt::experiments
