@@ -20,11 +20,16 @@ using Points = std::vector<Point>;
 /// Of the edges (0, 1), (1, 2) and (2, 0) of a triangle.
 using EdgeWeights = std::array<float, 3>;
 
+/// Summed from left to right, as VCG does; Eigen sums the last two first.
+float dot(const Point& a, const Point& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
 /// The angle between two directions, as VCG computes it: −1 where one of them has no length.
 float angle_between(const Point& a, const Point& b) {
-  const float lengths = a.norm() * b.norm();
+  const float lengths = std::sqrt(dot(a, a)) * std::sqrt(dot(b, b));
   if (lengths == 0) return -1;
-  return std::acos(std::clamp(a.dot(b) / lengths, -1.0F, 1.0F));
+  return std::acos(std::clamp(dot(a, b) / lengths, -1.0F, 1.0F));
 }
 
 /// Its cotangent: a tangent in double of an angle that was rounded to float32.
