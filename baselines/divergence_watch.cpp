@@ -15,7 +15,7 @@ struct Ball {
 };
 
 template <class Point>
-Ball allowed_ball(const std::vector<Point>& start) {
+Ball allowed_ball(std::span<const Point> start) {
   if (start.empty()) return {};
   Vec3 low = start.front().template cast<double>(), high = low;
   for (const Point& p : start) {
@@ -27,7 +27,7 @@ Ball allowed_ball(const std::vector<Point>& start) {
 
 /// "Not within" rather than "beyond", so that a coordinate that is no number counts.
 template <class Point>
-bool any_outside(const std::vector<Point>& points, const Vec3& centre, double radius) {
+bool any_outside(std::span<const Point> points, const Vec3& centre, double radius) {
   const double bound = radius * radius;
   return std::any_of(points.begin(), points.end(),
                      [&](const Point& p) { return !((p.template cast<double>() - centre).squaredNorm() <= bound); });
@@ -35,17 +35,16 @@ bool any_outside(const std::vector<Point>& points, const Vec3& centre, double ra
 
 }  // namespace
 
-DivergenceWatch::DivergenceWatch(const std::vector<Vec3>& start)
+DivergenceWatch::DivergenceWatch(std::span<const Vec3> start) : centre_(allowed_ball(start).centre), radius_(allowed_ball(start).radius) {}
+
+DivergenceWatch::DivergenceWatch(std::span<const Eigen::Vector3f> start)
     : centre_(allowed_ball(start).centre), radius_(allowed_ball(start).radius) {}
 
-DivergenceWatch::DivergenceWatch(const std::vector<Eigen::Vector3f>& start)
-    : centre_(allowed_ball(start).centre), radius_(allowed_ball(start).radius) {}
-
-void DivergenceWatch::look(const std::vector<Vec3>& points, int step) {
+void DivergenceWatch::look(std::span<const Vec3> points, int step) {
   if (!first_bad_step_ && any_outside(points, centre_, radius_)) first_bad_step_ = step;
 }
 
-void DivergenceWatch::look(const std::vector<Eigen::Vector3f>& points, int step) {
+void DivergenceWatch::look(std::span<const Eigen::Vector3f> points, int step) {
   if (!first_bad_step_ && any_outside(points, centre_, radius_)) first_bad_step_ = step;
 }
 

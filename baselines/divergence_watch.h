@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "smopt/mesh/triangle_mesh.h"
 
@@ -12,12 +12,12 @@ namespace smopt::baselines {
 /// bounding box it began in than ten of its diagonals.
 class DivergenceWatch {
  public:
-  explicit DivergenceWatch(const std::vector<Vec3>& start);
-  explicit DivergenceWatch(const std::vector<Eigen::Vector3f>& start);
+  explicit DivergenceWatch(std::span<const Vec3> start);
+  explicit DivergenceWatch(std::span<const Eigen::Vector3f> start);
 
   /// Looks at the positions after step `step` (from 1); nothing once a bad step has been seen. Cost: O(n).
-  void look(const std::vector<Vec3>& points, int step);
-  void look(const std::vector<Eigen::Vector3f>& points, int step);
+  void look(std::span<const Vec3> points, int step);
+  void look(std::span<const Eigen::Vector3f> points, int step);
 
   [[nodiscard]] std::optional<int> first_bad_step() const { return first_bad_step_; }
 

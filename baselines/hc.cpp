@@ -13,35 +13,43 @@ namespace {
 class Smoother {
  public:
   Smoother(const TriangleMesh& mesh, const HcOptions& options)
-      : neighbours_(build_neighbours(mesh)), options_(options), original_(mesh.points), means_(mesh.points), pushes_(mesh.points.size()) {}
+      : neighbours_(build_neighbours(mesh)),
+        options_(options),
+        original_(mesh.points),
+        means_(mesh.points),
+        pushes_(mesh.points.size() + 1, Vec3::Zero()) {}
 
+  /// \pre a zero stands behind the positions.
   void round(std::vector<Vec3>& points) {
-    for_ranges_in_parallel(points.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) go_to_mean(v, points);
-    });
-    for_ranges_in_parallel(points.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) points[v] = pushed_back(v);
-    });
+    for_ranges_in_parallel(neighbours_.vertex_count(), [&](std::size_t begin, std::size_t end) { go_to_means(points, begin, end); });
+    for_ranges_in_parallel(neighbours_.vertex_count(), [&](std::size_t begin, std::size_t end) { push_back(points, begin, end); });
   }
 
  private:
-  void go_to_mean(std::size_t v, const std::vector<Vec3>& points) {
-    const auto ring = neighbours_[v];
-    if (!ring.empty()) means_[v] = neighbour_mean(ring, points);
-    pushes_[v] = means_[v] - (options_.alpha * original_[v] + (1 - options_.alpha) * points[v]);
+  void go_to_means(const std::vector<Vec3>& points, std::size_t begin, std::size_t end) {
+    const NeighbourMeans means(neighbours_, points);
+    const double alpha = options_.alpha;
+    for (std::size_t v = begin; v < end; ++v) {
+      if (means.exists(v)) means_[v] = means.of(v);
+      for (int k = 0; k < 3; ++k) pushes_[v][k] = means_[v][k] - (alpha * original_[v][k] + (1 - alpha) * points[v][k]);
+    }
   }
 
-  [[nodiscard]] Vec3 pushed_back(std::size_t v) const {
-    const auto ring = neighbours_[v];
-    if (ring.empty()) return means_[v];
-    return means_[v] - (options_.beta * pushes_[v] + (1 - options_.beta) * neighbour_mean(ring, pushes_));
+  void push_back(std::vector<Vec3>& points, std::size_t begin, std::size_t end) const {
+    const NeighbourMeans pushes(neighbours_, pushes_);
+    const double beta = options_.beta;
+    for (std::size_t v = begin; v < end; ++v) {
+      if (!pushes.exists(v)) continue;
+      const Vec3 mean = pushes.of(v);
+      for (int k = 0; k < 3; ++k) points[v][k] = means_[v][k] - (beta * pushes_[v][k] + (1 - beta) * mean[k]);
+    }
   }
 
   VertexNeighbours neighbours_;
   HcOptions options_;
   std::vector<Vec3> original_;
-  std::vector<Vec3> means_;   ///< of a vertex without neighbours: its place
-  std::vector<Vec3> pushes_;  ///< b of the paper
+  std::vector<Vec3> means_;
+  std::vector<Vec3> pushes_;  ///< b of the paper, and a zero behind
 };
 
 MethodReport run_hc(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
@@ -57,11 +65,13 @@ MethodReport run_hc(TriangleMesh& mesh, const OptionValues& values, const Progre
 std::optional<int> smooth_hc(TriangleMesh& mesh, const HcOptions& options, const ProgressCallback& progress) {
   DivergenceWatch watch(mesh.points);
   Smoother smoother(mesh, options);
+  std::vector<Vec3> points = with_zero_behind(mesh.points);
   for (int round = 1; round <= options.rounds; ++round) {
     report_progress(progress, "smoothing", static_cast<double>(round - 1) / options.rounds);
-    smoother.round(mesh.points);
-    watch.look(mesh.points, round);
+    smoother.round(points);
+    watch.look(std::span(points).first(mesh.points.size()), round);
   }
+  mesh.points.assign(points.begin(), points.end() - 1);
   return watch.first_bad_step();
 }
 

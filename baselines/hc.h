@@ -17,7 +17,7 @@ struct HcOptions {
 /// The HC algorithm (Vollmer, Mencl, Müller, Improved Laplacian smoothing of noisy surface meshes, Comput. Graph. Forum 18:131, 1999), Jacobi:
 /// q = p; p = mean of the neighbours' q; b = p − (α·o + (1 − α)·q) with the original positions o; p ← p − (β·b + (1 − β)·mean of the
 /// neighbours' b). With β = 1 and α = 1 nothing moves. \return the first round that diverged. Vertices without triangles stay. Same bytes for
-/// any number of threads. Cost: two to three Laplacian rounds a round.
+/// any number of threads. Cost: two Laplacian rounds a round.
 std::optional<int> smooth_hc(TriangleMesh& mesh, const HcOptions& options, const ProgressCallback& progress = {});
 
 /// Its entry in the registry.

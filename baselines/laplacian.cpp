@@ -12,9 +12,9 @@ namespace {
 
 /// One Gauss–Seidel round in ascending order.
 void sweep(const VertexNeighbours& neighbours, double beta, std::vector<Vec3>& points) {
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    const auto ring = neighbours[v];
-    if (!ring.empty()) points[v] += beta * (neighbour_mean(ring, points) - points[v]);
+  const NeighbourMeans means(neighbours, points);
+  for (std::size_t v = 0; v < neighbours.vertex_count(); ++v) {
+    if (means.exists(v)) points[v] += beta * (means.of(v) - points[v]);
   }
 }
 
@@ -33,17 +33,19 @@ std::optional<int> smooth_laplacian(TriangleMesh& mesh, const LaplacianOptions& 
   const VertexNeighbours neighbours = build_neighbours(mesh);
   DivergenceWatch watch(mesh.points);
   const bool may_diverge = options.beta > 1;  // up to 1 a vertex stays within the hull of its ring
-  std::vector<Vec3> next(options.order == SweepOrder::jacobi ? mesh.points.size() : 0);
+  std::vector<Vec3> points = with_zero_behind(mesh.points);
+  std::vector<Vec3> next = options.order == SweepOrder::jacobi ? points : std::vector<Vec3>();
   for (int round = 1; round <= options.rounds; ++round) {
     report_progress(progress, "smoothing", static_cast<double>(round - 1) / options.rounds);
     if (options.order == SweepOrder::gauss_seidel) {
-      sweep(neighbours, options.beta, mesh.points);
+      sweep(neighbours, options.beta, points);
     } else {
-      laplacian_step(neighbours, options.beta, mesh.points, next);
-      mesh.points.swap(next);
+      laplacian_step(neighbours, options.beta, points, next);
+      points.swap(next);
     }
-    if (may_diverge) watch.look(mesh.points, round);
+    if (may_diverge) watch.look(std::span(points).first(neighbours.vertex_count()), round);
   }
+  mesh.points.assign(points.begin(), points.end() - 1);
   return watch.first_bad_step();
 }
 

@@ -19,7 +19,8 @@ struct LaplacianOptions {
 
 /// Plain Laplacian smoothing, x ← (1 − β) x + β · mean of the one-ring (Liu et al. 2017, equations 3 and 4): every vertex, every round, no
 /// test of any kind and no rule for borders. Vertices without triangles stay. \return the first round that diverged (`DivergenceWatch`; it
-/// takes β > 1). Same bytes for any number of threads; Gauss–Seidel uses one. Cost: about ten nanoseconds a vertex and round.
+/// takes β > 1). Same bytes for any number of threads; Gauss–Seidel uses one. Cost: 5 to 6 ns a
+/// vertex and round, 11 in Gauss–Seidel order.
 std::optional<int> smooth_laplacian(TriangleMesh& mesh, const LaplacianOptions& options, const ProgressCallback& progress = {});
 
 /// Its entry in the registry.

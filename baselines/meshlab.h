@@ -23,7 +23,7 @@ struct MeshlabOptions {
 ///
 /// Slivers have huge weights of either sign: a vertex is then thrown far away, and the steps go on from there, as in MeshLab.
 /// \return the first step that diverged (`DivergenceWatch`), nothing where none did. Same bytes for any number of threads.
-/// Cost: about 30 ns a vertex and step with uniform weights, 150 with cotangents. \throws Cancelled.
+/// Cost: about 25 ns a vertex and step with uniform weights, 200 with cotangents. \throws Cancelled.
 std::optional<int> smooth_meshlab(TriangleMesh& mesh, const MeshlabOptions& options, const ProgressCallback& progress = {});
 
 /// Its entry in the registry.

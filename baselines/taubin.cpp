@@ -25,13 +25,14 @@ MethodReport run_taubin(TriangleMesh& mesh, const OptionValues& values, const Pr
 std::optional<int> smooth_taubin(TriangleMesh& mesh, const TaubinOptions& options, const ProgressCallback& progress) {
   const VertexNeighbours neighbours = build_neighbours(mesh);
   DivergenceWatch watch(mesh.points);
-  std::vector<Vec3> other(mesh.points.size());
+  std::vector<Vec3> points = with_zero_behind(mesh.points), other = points;
   for (int round = 1; round <= options.rounds; ++round) {
     report_progress(progress, "smoothing", static_cast<double>(round - 1) / options.rounds);
-    laplacian_step(neighbours, options.lambda, mesh.points, other);
-    laplacian_step(neighbours, options.mu, other, mesh.points);
-    watch.look(mesh.points, round);
+    laplacian_step(neighbours, options.lambda, points, other);
+    laplacian_step(neighbours, options.mu, other, points);
+    watch.look(std::span(points).first(neighbours.vertex_count()), round);
   }
+  mesh.points.assign(points.begin(), points.end() - 1);
   return watch.first_bad_step();
 }
 

@@ -22,6 +22,7 @@ VertexNeighbours build_neighbours(const TriangleMesh& mesh) {
     }
     result.offsets.push_back(static_cast<std::uint32_t>(result.neighbours.size()));
   }
+  result.neighbours.insert(result.neighbours.end(), VertexNeighbours::kSlots, 0);  // a row may be read past its end
   return result;
 }
 
