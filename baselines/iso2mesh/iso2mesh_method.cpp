@@ -29,20 +29,22 @@ std::string resampling_note(const ResampleReport& report, std::size_t target) {
   return note;
 }
 
-void resample_to(TriangleMesh& mesh, std::size_t target, const OptionValues& values, MethodReport& report,
-                 const ProgressCallback& progress) {
+ResampleOptions parse_resampling(const OptionValues& values) {
   ResampleOptions options;
-  options.vertices = target;
+  options.vertices = vertex_target(values).value_or(0);
   options.placement = values.text("placement") == "midpoint" ? CollapsePlacement::midpoint : CollapsePlacement::lindstrom_turk;
   options.digits = values.integer("resample-digits", 0);
-  const ResampleReport resampled = timed(report.seconds, "resampling", [&] { return resample(mesh, options, progress); });
-  report.notes.push_back(resampling_note(resampled, target));
+  return options;
 }
 
 MethodReport run_iso2mesh(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
   const SmoothsurfOptions smoothing{parse_smoother(values.text("smoother")), values.integer("rounds", 0), values.number("alpha", 0)};
+  const ResampleOptions resampling = parse_resampling(values);
   MethodReport report;
-  if (const auto target = vertex_target(values)) resample_to(mesh, *target, values, report, progress);
+  if (resampling.vertices > 0) {
+    const ResampleReport resampled = timed(report.seconds, "resampling", [&] { return resample(mesh, resampling, progress); });
+    report.notes.push_back(resampling_note(resampled, resampling.vertices));
+  }
   const auto diverged = timed(report.seconds, "smoothing", [&] { return smoothsurf(mesh, smoothing, progress); });
   report_rounds(report, mesh, smoothing.rounds, diverged);
   return report;

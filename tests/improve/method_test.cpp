@@ -58,6 +58,7 @@ std::vector<std::string> wrong_values(const MethodOption& option) {
     case MethodOption::Kind::integer:
       return {"", "many", "1.5", "3x", " 3", "99999999999999999999", "-1"};
     case MethodOption::Kind::number:
+      if (option.default_value.starts_with("-")) return {"", "wide", "1e", "0.1.2", "nan", "inf"};
       return {"", "wide", "1e", "0.1.2", "nan", "inf", "-1"};
     case MethodOption::Kind::choice:
       return {"", "no such choice"};
