@@ -37,6 +37,7 @@ void add_context() {
 
 void register_all(const smopt::bench::Sizes& sizes) {
   smopt::bench::register_smoothing(sizes);
+  smopt::bench::register_baselines(sizes);
   smopt::bench::register_stages(sizes);
   smopt::bench::register_files(sizes);
   smopt::bench::register_improvement(sizes, SMOPT_PROGRAM);

@@ -11,7 +11,7 @@ endfunction()
 
 run(${BENCH} --tiny --benchmark_repetitions=1 --benchmark_out=${JSON})
 file(READ ${JSON} json)
-foreach(name floor smoothing/threads:2 stages/threads:1 off/threads:1 improve/threads:2 program/threads:2)
+foreach(name floor smoothing/threads:2 baseline_laplacian/threads:1 stages/threads:1 off/threads:1 improve/threads:2 program/threads:2)
   if(NOT json MATCHES "\"name\": \"${name}/copies:0")
     message(FATAL_ERROR "Expected: a benchmark ${name}. Got:\n${json}")
   endif()
