@@ -1,10 +1,11 @@
 # shellcheck shell=bash
 # Sourced by experiments/reproduce and tests/run: installs what is missing and builds a preset. Safe to repeat, quick when nothing is to do.
 
-# The packages of packages.txt that are not installed.
+# missing_packages [tests]: the packages of packages.txt that are not installed; with "tests" those that only the tests need too.
 missing_packages() {
-  local package
-  sed 's/#.*//' packages.txt | while read -r package; do
+  local package last='/^# for .*run only/q'
+  [ "${1-}" != tests ] || last=
+  sed "$last" packages.txt | sed 's/#.*//' | while read -r package; do
     [ -n "$package" ] || continue
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
   done
@@ -22,9 +23,10 @@ as_root() {
   fi
 }
 
+# install_packages [tests]: installs what is missing.
 install_packages() {
   local missing
-  missing=$(missing_packages)
+  missing=$(missing_packages "$@")
   [ -n "$missing" ] || return 0
   echo "installing: ${missing//$'\n'/ }"
   as_root apt-get update -qq
