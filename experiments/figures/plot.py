@@ -65,6 +65,16 @@ def number(record, *keys):
     return value
 
 
+def bar_value(record, quantity):
+    """As `number`; None, too, where the method diverged: what is left is no surface, and its area would dwarf the others."""
+    return None if number(record, "diverged_at_step") else number(record, "metrics", "after", quantity)
+
+
+def why_no_bar(record):
+    step = number(record, "diverged_at_step")
+    return f"diverged at step {step}" if step else "none"
+
+
 class Run:
     """The records with the order in which molecules and methods are shown."""
 
@@ -103,7 +113,7 @@ def series_of(run, quantity):
     """Name, legend and one value a molecule for each bar of a group."""
     series = []
     for method in run.methods:
-        values = [number(run.record(molecule, method), "metrics", "after", quantity) for molecule in run.molecules]
+        values = [bar_value(run.record(molecule, method), quantity) for molecule in run.molecules]
         series.append((method, run.method_title(method), values))
     prepared = [run.prepared(molecule, quantity) for molecule in run.molecules]
     if any(value is not None for value in prepared):
@@ -129,9 +139,9 @@ def draw_bar_group(axes, run, quantity, unit_label):
         if name not in ("initial", PREPARED):
             for group, (position, value) in enumerate(zip(positions, values)):
                 label_change(axes, position, value, run.prepared(run.molecules[group], quantity))
-        for position, value in zip(positions, values):
+        for group, (position, value) in enumerate(zip(positions, values)):
             if value is None:
-                axes.annotate("none", (position, 0), xytext=(0, 3), textcoords="offset points", rotation=90, ha="center", va="bottom",
+                axes.annotate(why_no_bar(run.record(run.molecules[group], name)), (position, 0), xytext=(0, 3), textcoords="offset points", rotation=90, ha="center", va="bottom",
                               fontsize=8)
     axes.set_xticks(range(len(run.molecules)), [run.molecule_title(molecule) for molecule in run.molecules],
                     rotation=15 if len(run.molecules) > 6 else 0)
@@ -147,9 +157,9 @@ def figure5(run):
     draw_bar_group(bottom, run, "volume", "enclosed volume (Å³)")
     top.set_title("(a) Area", loc="left")
     bottom.set_title("(b) Volume", loc="left")
-    top.legend(loc="lower left", bbox_to_anchor=(0, 1.1), borderaxespad=0, ncols=4, frameon=False)
+    top.legend(loc="lower left", bbox_to_anchor=(0, 1.1), borderaxespad=0, ncols=3, frameon=False)
     figure.align_ylabels([top, bottom])
-    bottom.set_xlabel("molecule; above the bars: change against the initial mesh without its cavities")
+    bottom.set_xlabel("molecule\n(above the bars: change against the initial mesh without its cavities)")
     return figure
 
 
