@@ -61,6 +61,10 @@ void print_summary(const nlohmann::ordered_json& report) {
              report["removed"]["cavities"].get<long>(), report["moves"]["accepted"].get<long>(), report["moves"]["shortened"].get<long>(),
              report["moves"]["refused"].get<long>(), report["rounds"].get<long>(), report["stopped_because"].get<std::string>(),
              report["seconds"]["total"].get<double>());
+  for (const auto& note : report["notes"]) fmt::print(stderr, "note: {}\n", note.get<std::string>());
+  if (!report["diverged_at_step"].is_null())
+    fmt::print(stderr, "smopt: warning: the method diverged at step {}; what is written is no surface of use\n",
+               report["diverged_at_step"].get<long>());
 }
 
 /// What would be found out only after the work.

@@ -163,6 +163,31 @@ TEST_F(Improve, RoundedOutputIsWarnedOf) {
   EXPECT_THAT(improve().err, Not(HasSubstr("warning")));
 }
 
+TEST_F(Improve, AMethodThatDivergedIsWarnedOfAndReported) {
+  // Beta 9 throws every vertex past the mean of its neighbours.
+  const ProgramResult r = improve({"--method", "laplacian", "--beta", "9", "--rounds", "50", "--report", path_in(folder, "r.json")});
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  const json report = json::parse(bytes_of(path_in(folder, "r.json")));
+  const auto step = report["diverged_at_step"].get<int>();
+  EXPECT_GT(step, 1);
+  EXPECT_EQ(report["stopped_because"], "diverged at step " + std::to_string(step));
+  EXPECT_THAT(r.err, HasSubstr("warning: the method diverged at step " + std::to_string(step)));
+  EXPECT_TRUE(report_of({"--method", "laplacian"})["diverged_at_step"].is_null());
+}
+
+TEST_F(Improve, SaysWhatAMethodNotes) {
+  const ProgramResult r = improve({"--method", "iso2mesh", "--vertices", "500", "--rounds", "1"});
+  EXPECT_THAT(r.err, HasSubstr("note: resampled from 642 to 500 vertices"));
+  EXPECT_EQ(read_mesh(output).vertex_count(), 500U);
+}
+
+TEST_F(Improve, AMethodWhoseProgramIsNotInstalledExitsWith1AndWritesNothing) {
+  const ProgramResult r = improve({"--method", "external:iso2mesh", "--iso2mesh", path_in(folder, "nowhere")});
+  EXPECT_EQ(r.exit_code, 1);
+  EXPECT_THAT(r.err, HasSubstr("external:iso2mesh"));
+  EXPECT_THAT(files_in(folder), ::testing::ElementsAre("in.off"));
+}
+
 TEST_F(Improve, DigitsLimitWhatIsWritten) {
   constexpr std::size_t kDigits = 4;
   ASSERT_EQ(improve({"--digits", "4"}).exit_code, 0);
