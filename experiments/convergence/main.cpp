@@ -6,21 +6,19 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/convergence/study_json.h"
 #include "experiments/convergence/study_markdown.h"
+#include "experiments/study_program.h"
 #include "smopt/error.h"
+#include "smopt/io/file.h"
 
 namespace smopt::experiments {
 namespace {
-
-enum ExitCode { kDone = 0, kWrongUsage = 2, kBadInput = 3, kInternalError = 4 };
 
 struct Arguments {
   std::vector<std::string> molecules;
@@ -71,12 +69,6 @@ void require_halves(const std::vector<double>& errors) {
   }
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw InvalidInput(fmt::format("{}: cannot be written", path.string()));
-}
-
 /// The command line with the files' names only.
 std::string command_of(const Arguments& arguments) {
   std::string command = "build/release/bin/smopt-generator-study -o results";
@@ -111,32 +103,12 @@ int main_of(int argc, char** argv) {
   app.add_option("--errors", arguments.study.errors, "ångström, each smaller than the one before")->delimiter(',')->capture_default_str();
   app.add_option("-o,--output", arguments.output, "the folder to write into (default: the page to standard output)");
   app.add_option("--threads", arguments.threads, "threads to use (default: all cores)")->check(CLI::Range(1, 1024));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kWrongUsage;
-  }
-  run(arguments);
-  return kDone;
-}
-
-int report_error(const char* what, ExitCode code) {
-  fmt::print(stderr, "smopt-generator-study: {}\n", what);
-  return code;
+  return run_study_program(app, argc, argv, [&] { run(arguments); });
 }
 
 }  // namespace
 }  // namespace smopt::experiments
 
 int main(int argc, char** argv) {
-  using namespace smopt::experiments;
-  try {
-    return main_of(argc, argv);
-  } catch (const smopt::InvalidOption& error) {
-    return report_error(error.what(), kWrongUsage);
-  } catch (const smopt::InvalidInput& error) {
-    return report_error(error.what(), kBadInput);
-  } catch (const std::exception& error) {
-    return report_error(error.what(), kInternalError);
-  }
+  return smopt::experiments::main_of(argc, argv);
 }

@@ -4,22 +4,19 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 
 #include "baselines/baselines.h"
 #include "experiments/datasets.h"
 #include "experiments/iso2mesh_study/study_markdown.h"
 #include "experiments/paper_table.h"
+#include "experiments/study_program.h"
 #include "experiments/surface_stage.h"
-#include "smopt/error.h"
 #include "smopt/improve/prepare.h"
 #include "smopt/io/file.h"
 
 namespace smopt::experiments {
 namespace {
-
-enum ExitCode { kDone = 0, kWrongUsage = 2, kBadInput = 3, kInternalError = 4 };
 
 struct Arguments {
   std::vector<std::string> molecules = {"ache-monomer", "fas2"};
@@ -85,32 +82,12 @@ int main_of(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("-o,--output", arguments.output, "the folder to write into (default: the page to standard output)");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kWrongUsage;
-  }
-  run(arguments);
-  return kDone;
-}
-
-int report_error(const std::exception& error, ExitCode code) {
-  fmt::print(stderr, "smopt-iso2mesh-study: {}\n", error.what());
-  return code;
+  return run_study_program(app, argc, argv, [&] { run(arguments); });
 }
 
 }  // namespace
 }  // namespace smopt::experiments
 
 int main(int argc, char** argv) {
-  using namespace smopt::experiments;
-  try {
-    return main_of(argc, argv);
-  } catch (const smopt::InvalidOption& error) {
-    return report_error(error, kWrongUsage);
-  } catch (const smopt::InvalidInput& error) {
-    return report_error(error, kBadInput);
-  } catch (const std::exception& error) {
-    return report_error(error, kInternalError);
-  }
+  return smopt::experiments::main_of(argc, argv);
 }
