@@ -1,5 +1,7 @@
 #include "experiments/tables/table3.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -40,6 +42,18 @@ void add_columns(std::vector<MoleculeColumn>& columns, const RecordSet& records,
   }
 }
 
+/// Which results are no surfaces any more: "MeshLab diverged at step 36 on AChE monomer."
+std::vector<std::string> divergence_notes(const RecordSet& records) {
+  std::vector<std::string> notes;
+  for (const std::string& method : paper_methods(records)) {
+    for (const MoleculeRow& row : molecule_rows(records)) {
+      const auto step = number_at(row.record(method), "/diverged_at_step");
+      if (step) notes.push_back(fmt::format("{} diverged at step {:.0f} on {}.", method_title(method), *step, row.title));
+    }
+  }
+  return notes;
+}
+
 }  // namespace
 
 Table table3(const RecordSet& records) {
@@ -52,6 +66,7 @@ Table table3(const RecordSet& records) {
   table.notes.push_back(
       "Pairs are counted by CGAL's exact predicates. Every method was given the initial mesh without its cavities; \"initial\" is the mesh "
       "with them.");
+  for (std::string& note : divergence_notes(records)) table.notes.push_back(std::move(note));
   return table;
 }
 

@@ -20,6 +20,7 @@ using smopt::testing::made_record;
 using smopt::testing::set_cpu_seconds;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kDash = "—";
 
@@ -188,6 +189,14 @@ TEST(Table3, ShowsTheMethodsThatBelongBesideThePapers) {
   const Table table = table3(records_of(list));
   EXPECT_EQ(cell(table, kAche, "intersecting_pairs_meshlab"), "7");
   EXPECT_EQ(cell(table, kAche, "intersecting_pairs_taubin"), "no column intersecting_pairs_taubin");
+}
+
+TEST(Table3, SaysWhichResultsDiverged) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  list.push_back(made_record(ache_monomer(), "meshlab"));
+  EXPECT_THAT(table3(records_of(list)).notes, Not(Contains(HasSubstr("diverged"))));
+  list.back()["diverged_at_step"] = 36;
+  EXPECT_THAT(table3(records_of(list)).notes, Contains("MeshLab diverged at step 36 on AChE monomer."));
 }
 
 TEST(Table3, ShowsIso2meshBesideThePapersWhenItRan) {
