@@ -37,6 +37,10 @@ Json number_or_text(const MethodOption& option, const std::string& value) {
   return option.kind == MethodOption::Kind::integer ? Json(static_cast<long>(number)) : Json(number);
 }
 
+Json number_or_null(const std::optional<std::size_t>& number) {
+  return number ? Json(*number) : Json();
+}
+
 Json rounds_json(const std::vector<RoundReport>& rounds) {
   Json list = Json::array();
   for (const RoundReport& round : rounds) {
@@ -63,7 +67,7 @@ void add_outcome(Json& report, const PreparationReport& preparation, const Metho
                        {"isolated_vertices", preparation.isolated_vertices},
                        {"redundant_valence3", outcome.redundant_valence3},
                        {"redundant_valence4", outcome.redundant_valence4}};
-  report["rounds"] = outcome.rounds.size();
+  report["rounds"] = outcome.rounds_run;
   report["moves"] = {{"accepted", outcome.moves.accepted},
                      {"shortened", outcome.moves.shortened},
                      {"refused", outcome.moves.refused},
@@ -117,7 +121,8 @@ ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& 
   times.insert(times.end(), outcome.seconds.begin(), outcome.seconds.end());
   times.emplace_back("total", total.elapsed());
   add_seconds(report, times);
-  if (run.verify) report["verified"] = {{"pairs_before", *result.pairs_before}, {"pairs_after", *result.pairs_after}};
+  if (run.verify)
+    report["verified"] = {{"pairs_before", number_or_null(result.pairs_before)}, {"pairs_after", number_or_null(result.pairs_after)}};
   add_program(report);
   return result;
 }

@@ -25,7 +25,7 @@ struct ImproveRun {
 
 struct ImproveRunResult {
   nlohmann::ordered_json report;            ///< what `improve --report` writes
-  std::optional<std::size_t> pairs_before;  ///< with `verify`; empty without
+  std::optional<std::size_t> pairs_before;  ///< with `verify`; empty without, and where `metrics::find_intersections` does not count
   std::optional<std::size_t> pairs_after;
 };
 

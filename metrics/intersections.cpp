@@ -3,6 +3,7 @@
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
+#include <fmt/format.h>
 #include <tbb/concurrent_vector.h>
 
 #include <algorithm>
@@ -108,13 +109,19 @@ std::vector<const Box*> shuffled_pointers(const std::vector<Box>& boxes) {
   return pointers;
 }
 
-std::vector<Pair> intersecting_pairs(const TriangleMesh& mesh) {
+/// Ends the search for pairs.
+struct TooManyPairs {};
+
+/// \throws TooManyPairs
+std::vector<Pair> intersecting_pairs(const TriangleMesh& mesh, std::size_t limit) {
   const PairTest test(mesh);
   const std::vector<Box> boxes = boxes_of_proper_triangles(mesh, test);
   std::vector<const Box*> pointers = shuffled_pointers(boxes);
   tbb::concurrent_vector<Pair> found;
   const auto test_candidates = [&](const Box* a, const Box* b) {
-    if (test.meet_elsewhere(a->info(), b->info())) found.push_back(std::minmax(a->info(), b->info()));
+    if (!test.meet_elsewhere(a->info(), b->info())) return;
+    found.push_back(std::minmax(a->info(), b->info()));
+    if (found.size() > limit) throw TooManyPairs();
   };
   CGAL::box_self_intersection_d<CGAL::Parallel_tag>(pointers.begin(), pointers.end(), test_candidates, kBoxCutoff);
   std::vector<Pair> pairs(found.begin(), found.end());
@@ -126,9 +133,17 @@ std::vector<Pair> intersecting_pairs(const TriangleMesh& mesh) {
 }  // namespace
 
 Intersections find_intersections(const TriangleMesh& mesh, const IntersectionOptions& options) {
-  if (!has_finite_triangles(mesh)) return {};
   Intersections result;
-  result.pairs = intersecting_pairs(mesh);
+  if (!has_finite_triangles(mesh)) {
+    result.why_not_counted = "a triangle has a corner that is not finite";
+    return result;
+  }
+  try {
+    result.pairs = intersecting_pairs(mesh, options.count_limit);
+  } catch (const TooManyPairs&) {
+    result.why_not_counted = fmt::format("more than {} pairs", options.count_limit);
+    return result;
+  }
   result.count = result.pairs.size();
   if (result.pairs.size() > options.list_limit) result.pairs.resize(options.list_limit);
   return result;

@@ -13,10 +13,14 @@ namespace smopt::metrics {
 
 struct IntersectionOptions {
   std::size_t list_limit = std::numeric_limits<std::size_t>::max();  ///< how many of the pairs are listed; all are counted
+  /// Where there are more the search ends without a number. A mesh that an unstable method has blown up has billions, as every triangle
+  /// meets every other; ten million take some twenty seconds and 200 MB.
+  std::size_t count_limit = 10'000'000;
 };
 
 struct Intersections {
-  std::optional<std::size_t> count;              ///< intersecting pairs; empty where a corner is not finite
+  std::optional<std::size_t> count;              ///< intersecting pairs; empty where a corner is not finite, or beyond `count_limit`
+  std::string why_not_counted;                   ///< "a triangle has a corner that is not finite"; empty where they were
   std::vector<std::pair<FaceId, FaceId>> pairs;  ///< the first `list_limit` of them: smaller id first, sorted
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 std::optional<std::size_t> count_intersections(const TriangleMesh& mesh, std::vector<std::string>& notes) {
   const Intersections found = find_intersections(mesh, {.list_limit = 0});
-  if (!found.count) notes.push_back("intersecting_pairs: a triangle has a corner that is not finite");
+  if (!found.count) notes.push_back("intersecting_pairs: " + found.why_not_counted);
   return found.count;
 }
 

@@ -128,6 +128,7 @@ constexpr double kSuspiciousAngle = 1;
 /// What is known to be wrong with a surface that failed; empty when nothing is.
 std::string diagnosis(const TriangleMesh& surface) {
   const Intersections found = find_intersections(surface, {.list_limit = 1});
+  if (!found.count) return "intersecting pairs of triangles: " + found.why_not_counted;
   if (found.pairs.empty()) {
     std::vector<std::string> ignored;
     const double angle = measure_shape(surface, ignored).angle.min.value_or(kSuspiciousAngle);

@@ -67,6 +67,15 @@ void print_summary(const nlohmann::ordered_json& report) {
                report["diverged_at_step"].get<long>());
 }
 
+std::string count_text(const std::optional<std::size_t>& pairs) {
+  return pairs ? fmt::format("{}", *pairs) : "an unknown number of";
+}
+
+/// False, too, where they cannot be counted: coordinates that are not finite, or a tangle.
+bool has_no_new_pairs(const experiments::ImproveRunResult& result) {
+  return result.pairs_before && result.pairs_after && *result.pairs_after <= *result.pairs_before;
+}
+
 /// What would be found out only after the work.
 void require_outputs(const Arguments& arguments) {
   const std::string output = arguments.run.output.string();
@@ -87,10 +96,10 @@ void run(Arguments& arguments, Context& context) {
   if (arguments.is_json) fmt::print("{}", report);
   if (!context.is_quiet) print_summary(result.report);
   if (!arguments.run.verify) return;
-  const bool has_new_pairs = *result.pairs_after > *result.pairs_before;
   if (!context.is_quiet)
-    fmt::print(stderr, "verified: {} intersecting pairs before, {} after\n", *result.pairs_before, *result.pairs_after);
-  if (has_new_pairs) context.exit_code = ExitCode::answer_is_no;
+    fmt::print(stderr, "verified: {} intersecting pairs before, {} after\n", count_text(result.pairs_before),
+               count_text(result.pairs_after));
+  if (!has_no_new_pairs(result)) context.exit_code = ExitCode::answer_is_no;
 }
 
 }  // namespace

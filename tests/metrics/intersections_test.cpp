@@ -179,12 +179,23 @@ TEST(Intersections, CountDoesNotChangeWithNumberingOrTheLimitOfTheList) {
   EXPECT_THAT(few.pairs, ElementsAre(all.pairs[0], all.pairs[1], all.pairs[2]));
 }
 
+TEST(Intersections, AreNotCountedBeyondTheLimitAndThatIsSaid) {
+  const TriangleMesh mesh = noisy(icosphere(3), 0.2, 5);
+  const std::size_t all = count(mesh);
+  EXPECT_EQ(find_intersections(mesh, {.count_limit = all}).count, all);
+  const Intersections stopped = find_intersections(mesh, {.count_limit = all - 1});
+  EXPECT_FALSE(stopped.count.has_value());
+  EXPECT_TRUE(stopped.pairs.empty());
+  EXPECT_EQ(stopped.why_not_counted, "more than " + std::to_string(all - 1) + " pairs");
+}
+
 TEST(Intersections, DoNotExistWhereACornerIsNotFinite) {
   TriangleMesh mesh = cube();
   mesh.points.emplace_back(0, std::numeric_limits<double>::quiet_NaN(), 0);
   EXPECT_EQ(count(mesh), 0U) << "a point in no triangle does not matter";
   mesh.triangles.push_back({0, 1, 8});
   EXPECT_FALSE(find_intersections(mesh).count.has_value());
+  EXPECT_EQ(find_intersections(mesh).why_not_counted, "a triangle has a corner that is not finite");
 }
 
 }  // namespace
