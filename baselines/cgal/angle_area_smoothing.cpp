@@ -4,8 +4,12 @@
 #include <CGAL/Polygon_mesh_processing/angle_and_area_smoothing.h>
 #include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
+#ifdef CGAL_PMP_USE_CERES_SOLVER
+#include <glog/logging.h>
+#endif
 
 #include <cassert>
+#include <utility>
 
 #include "baselines/cgal/call_watch.h"
 #include "baselines/cgal/cgal_call.h"
@@ -25,6 +29,22 @@ void require_areas(const Surface& surface) {
     if (pmp::is_degenerate_triangle_face(f, surface))
       throw MethodFailed(fmt::format("CGAL smooths no triangle without area: face {}", static_cast<FaceId>(f)));
 }
+
+/// As long as it lives, Ceres, which smooths areas, prints nothing about a vertex that it cannot improve.
+#ifdef CGAL_PMP_USE_CERES_SOLVER
+class QuietCeres {
+ public:
+  QuietCeres() : level_(std::exchange(FLAGS_minloglevel, google::GLOG_FATAL)) {}
+  QuietCeres(const QuietCeres&) = delete;
+  QuietCeres& operator=(const QuietCeres&) = delete;
+  ~QuietCeres() { FLAGS_minloglevel = level_; }
+
+ private:
+  google::int32 level_;
+};
+#else
+struct QuietCeres {};
+#endif
 
 /// How often CGAL asks whether a vertex is constrained, in units of the number of vertices: once in a pass that moves each vertex at once
 /// (areas) or projects it, twice in one that moves all at its end (angles).
@@ -56,6 +76,7 @@ AngleAreaReport smooth_angles_and_areas(TriangleMesh& mesh, const AngleAreaOptio
   const std::size_t visits_a_round = Passes(options).a_round() * mesh.vertex_count();
   if (options.rounds == 0 || visits_a_round == 0) return {};
   CallWatch watch(progress, "smoothing", visits_a_round * static_cast<std::size_t>(options.rounds));
+  [[maybe_unused]] const QuietCeres quiet;
   call_cgal([&] {
     pmp::angle_and_area_smoothing(surface, CGAL::parameters::number_of_iterations(static_cast<unsigned>(options.rounds))
                                                .use_angle_smoothing(options.smooths_angles)

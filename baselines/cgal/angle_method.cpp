@@ -28,7 +28,7 @@ AngleAreaOptions read_angle_area_options(const OptionValues& values) {
 MethodReport run_angle_area(TriangleMesh& mesh, const AngleAreaOptions& options, const ProgressCallback& progress) {
   MethodReport report;
   const AngleAreaReport outcome = timed(report.seconds, "smoothing", [&] { return smooth_angles_and_areas(mesh, options, progress); });
-  report_cgal_rounds(report, mesh.vertex_count(), outcome.complete_rounds);
+  report_cgal_rounds(report, outcome.complete_rounds);
   if (outcome.met_itself) {
     report.stopped_because = fmt::format("self-intersection in round {}", outcome.complete_rounds + 1);
     report.notes.push_back(

@@ -10,8 +10,8 @@ bool is_on(const OptionValues& values, const std::string& name) {
   return values.text(name) == "on";
 }
 
-void report_cgal_rounds(MethodReport& report, std::size_t vertices, int rounds) {
-  report.rounds.assign(static_cast<std::size_t>(rounds), {vertices, {}, 0});
+void report_cgal_rounds(MethodReport& report, int rounds) {
+  report.rounds_run = static_cast<std::size_t>(rounds);
   report.stopped_because = "rounds";
   report.notes.emplace_back("CGAL does not say how many vertices it moved: moves are counted as none.");
 }

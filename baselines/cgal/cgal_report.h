@@ -12,7 +12,7 @@ MethodOption switch_option(std::string name, bool is_on, std::string help);
 /// Whether a `switch_option` is on.
 bool is_on(const OptionValues& values, const std::string& name);
 
-/// Fills the rounds of a report over `vertices` vertices each; how many of them moved CGAL does not say, and a note says that.
-void report_cgal_rounds(MethodReport& report, std::size_t vertices, int rounds);
+/// Fills the rounds of a report; how many vertices moved in them CGAL does not say, and a note says that.
+void report_cgal_rounds(MethodReport& report, int rounds);
 
 }  // namespace smopt::baselines

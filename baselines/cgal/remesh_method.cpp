@@ -8,9 +8,11 @@
 
 #include "baselines/cgal/cgal_report.h"
 #include "baselines/cgal/isotropic_remeshing.h"
+#include "baselines/cgal/surface_conversion.h"
 #include "baselines/cgal/vertex_search.h"
 #include "baselines/vertex_target.h"
 #include "smopt/error.h"
+#include "smopt/geometry/triangle_shape.h"
 
 namespace smopt::baselines {
 namespace {
@@ -30,13 +32,12 @@ RemeshingOptions read_options(const OptionValues& values) {
 /// Edge length² × vertices of equilateral triangles in whose place the surface would be, Å²: each vertex has the area of two.
 double length_squared_times_vertices(const TriangleMesh& mesh) {
   double doubled_area = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    doubled_area += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  for (const auto& [a, b, c] : mesh.triangles) doubled_area += doubled_area_vector(mesh.points[a], mesh.points[b], mesh.points[c]).norm();
   if (!(doubled_area > 0)) throw MethodFailed("CGAL cannot remesh a surface without area");
   return doubled_area / std::numbers::sqrt3;
 }
 
-/// More vertices than this are a slip in the edge length rather than a wish: they take about 50 GB.
+/// More vertices than this are a slip rather than a wish: they take about 50 GB.
 constexpr double kMostVertices = 1e8;
 
 void require_feasible(const TriangleMesh& mesh, double edge_length) {
@@ -57,6 +58,8 @@ void remesh_to_length(TriangleMesh& mesh, RemeshingOptions options, MethodReport
 /// "search".
 void remesh_to_vertices(TriangleMesh& mesh, std::size_t target, RemeshingOptions options, MethodReport& report,
                         const ProgressCallback& progress) {
+  if (static_cast<double>(target) > kMostVertices)
+    throw InvalidOption(fmt::format("{} vertices were asked for, more than {:.0e}", target, kMostVertices));
   const Stopwatch stopwatch;
   std::map<double, Seconds> runs;  // by edge length
   const double first_length = std::sqrt(length_squared_times_vertices(mesh) / static_cast<double>(target));
@@ -78,6 +81,7 @@ void remesh_to_vertices(TriangleMesh& mesh, std::size_t target, RemeshingOptions
 
 MethodReport run_remesh(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
   const RemeshingOptions options = read_options(values);
+  require_surface(mesh, Borders::rejected);
   const std::optional<std::size_t> target = vertex_target(values);
   if (target && options.edge_length > 0) throw InvalidOption("--edge-length cannot be given with --vertices or --match");
   MethodReport report;
@@ -85,7 +89,7 @@ MethodReport run_remesh(TriangleMesh& mesh, const OptionValues& values, const Pr
     remesh_to_vertices(mesh, *target, options, report, progress);
   else
     remesh_to_length(mesh, options, report, progress);
-  report_cgal_rounds(report, mesh.vertex_count(), options.rounds);
+  report_cgal_rounds(report, options.rounds);
   return report;
 }
 

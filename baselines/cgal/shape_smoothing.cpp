@@ -29,7 +29,7 @@ MethodReport run_shape(TriangleMesh& mesh, const OptionValues& values, const Pro
   if (options.time == 0) throw InvalidOption("--time: expected a number above 0, got '0'");
   MethodReport report;
   const int rounds = timed(report.seconds, "smoothing", [&] { return smooth_shape(mesh, options, progress); });
-  report_cgal_rounds(report, mesh.vertex_count(), rounds);
+  report_cgal_rounds(report, rounds);
   if (rounds < options.rounds) report.stopped_because = fmt::format("CGAL's solver failed in round {}", rounds + 1);
   return report;
 }

@@ -21,7 +21,7 @@ MethodReport run_tangential(TriangleMesh& mesh, const OptionValues& values, cons
   const TangentialOptions options{values.integer("rounds", 0)};
   MethodReport report;
   timed(report.seconds, "smoothing", [&] { relax_tangentially(mesh, options, progress); });
-  report_cgal_rounds(report, mesh.vertex_count(), options.rounds);
+  report_cgal_rounds(report, options.rounds);
   return report;
 }
 

@@ -151,7 +151,7 @@ TEST(AngleSmoothing, TheMethodReportsWhereCgalStopped) {
   const Method method = angle_method();
   const MethodReport report = method.run(mesh, OptionValues(method.options, {{"safety", "on"}, {"rounds", "3"}}), {});
   EXPECT_EQ(report.stopped_because, "self-intersection in round 1");
-  EXPECT_EQ(report.rounds.size(), 0U);
+  EXPECT_EQ(report.rounds_run, 0U);
   EXPECT_THAT(report.notes, ::testing::Contains(HasSubstr("round 1 of 3")));
 }
 

@@ -104,7 +104,7 @@ TEST_P(CgalMethod, StopsWithCancelledWhenTheCallbackSaysSo) {
 
 TEST_P(CgalMethod, ReportsItsRoundsAndItsTimeAndThatMovesAreUnknown) {
   const MethodReport report = run(GetParam(), test_mesh(), {{"rounds", "2"}}).report;
-  EXPECT_EQ(report.rounds.size(), 2U);
+  EXPECT_EQ(report.rounds_run, 2U);
   EXPECT_EQ(report.stopped_because, "rounds");
   EXPECT_EQ(report.moves.accepted, 0U);
   EXPECT_THAT(report.notes, ::testing::Contains(::testing::HasSubstr("moves are counted as none")));
@@ -113,8 +113,12 @@ TEST_P(CgalMethod, ReportsItsRoundsAndItsTimeAndThatMovesAreUnknown) {
 }
 
 TEST_P(CgalMethod, RejectsOptionsOutOfRange) {
-  for (const auto& [name, value] : Given{{"rounds", "-1"}, {"rounds", "1.5"}, {"beta", "1"}})
-    EXPECT_THROW(run(GetParam(), test_mesh(), {{name, value}}), InvalidOption) << name << ' ' << value;
+  for (const Given& given : {Given{{"rounds", "-1"}}, Given{{"rounds", "1.5"}}, Given{{"beta", "1"}}})
+    EXPECT_THROW(run(GetParam(), test_mesh(), given), InvalidOption) << given.begin()->first << ' ' << given.begin()->second;
+}
+
+TEST_P(CgalMethod, RefusesCoordinatesWhosePowersOverflow) {
+  EXPECT_THROW(run(GetParam(), scaled(test_mesh(), 1e150), {{"rounds", "1"}}), InvalidMesh);
 }
 
 TEST_P(CgalSmoothing, MovesNothingInZeroRounds) {

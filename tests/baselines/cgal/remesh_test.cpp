@@ -143,6 +143,12 @@ TEST(RemeshMethod, SaysWhenTheNumberIsMissed) {
   EXPECT_THAT(outcome.report.notes, Contains(HasSubstr("missed by more than 1 %")));
 }
 
+TEST(RemeshMethod, RefusesMoreVerticesThanMemoryHolds) {
+  TriangleMesh mesh = icosphere(1);
+  const Method method = remesh_method();
+  EXPECT_THROW(method.run(mesh, OptionValues(method.options, {{"vertices", "2000000000"}}), {}), InvalidOption);
+}
+
 TEST(RemeshMethod, RejectsContradictions) {
   EXPECT_THROW(run(icosphere(1), {{"edge-length", "-1"}}), InvalidOption);
   EXPECT_THROW(run(icosphere(1), {{"vertices", "100"}, {"match", "x.off"}}), InvalidOption);
