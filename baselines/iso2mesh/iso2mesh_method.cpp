@@ -8,6 +8,7 @@
 #include "baselines/iso2mesh/smoothsurf.h"
 #include "baselines/smoothing_run.h"
 #include "baselines/vertex_target.h"
+#include "smopt/mesh/validity.h"
 
 namespace smopt::baselines {
 namespace {
@@ -20,11 +21,12 @@ SmoothsurfMethod parse_smoother(const std::string& text) {
 }
 
 /// What to tell of the resampling.
-std::string resampling_note(const ResampleReport& report, std::size_t target) {
+std::string resampling_note(const ResampleReport& report, std::size_t target, bool is_closed) {
   if (target >= report.vertices_before)
     return fmt::format("not resampled: {} vertices were asked for, and the mesh has {}", target, report.vertices_before);
   std::string note = fmt::format("resampled from {} to {} vertices", report.vertices_before, report.vertices_after);
   if (report.merged_vertices > 0) note += fmt::format(", {} that rounding had made equal merged", report.merged_vertices);
+  if (!is_closed) note += "; the mesh is not closed any more";
   if (!report.is_target_met) note += fmt::format("; {} were asked for", target);
   return note;
 }
@@ -43,7 +45,7 @@ MethodReport run_iso2mesh(TriangleMesh& mesh, const OptionValues& values, const 
   MethodReport report;
   if (resampling.vertices > 0) {
     const ResampleReport resampled = timed(report.seconds, "resampling", [&] { return resample(mesh, resampling, progress); });
-    report.notes.push_back(resampling_note(resampled, resampling.vertices));
+    report.notes.push_back(resampling_note(resampled, resampling.vertices, check_validity(mesh).is_closed_manifold()));
   }
   const auto diverged = timed(report.seconds, "smoothing", [&] { return smoothsurf(mesh, smoothing, progress); });
   report_rounds(report, mesh, smoothing.rounds, diverged);

@@ -13,7 +13,7 @@ enum class SmoothsurfMethod { laplacian, lowpass, laplacianhc };
 struct SmoothsurfOptions {
   SmoothsurfMethod method = SmoothsurfMethod::laplacian;
   int rounds = 100;    ///< ≥ 0
-  double alpha = 0.5;  ///< [0, 1]
+  double alpha = 0.5;  ///< ≥ 0
 };
 
 /// ISO2mesh's `smoothsurf` (Fang, Boas, IEEE ISBI 2009), all three methods Jacobi with uniform weights and without any rule for borders:

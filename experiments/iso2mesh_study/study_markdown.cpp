@@ -28,11 +28,8 @@ constexpr const char* kIntroduction =
     "the three methods, and values of alpha and of the rounds, and says how far area and volume move from those of the mesh that ISO2mesh "
     "was\n"
     "given (the initial mesh without its cavities). The closest setting is the one whose larger change of the two is smallest. Resampled\n"
-    "positions are not rounded here to the six digits of ISO2mesh's text file: that makes vertices of needles equal, and the mesh is no "
-    "longer\n"
-    "closed once they are merged (one of 65 258 for the AChE monomer by Lindstrom-Turk). Pairs are not counted where the area has more "
-    "than\n"
-    "doubled, which is a tangle.\n";
+    "positions are not rounded here to the six digits of ISO2mesh's text file: that can make vertices of needles equal, and once they are\n"
+    "merged the mesh encloses no volume. Pairs are not counted where the area has more than doubled, which is a tangle.\n";
 
 const char* name_of(CollapsePlacement placement) {
   return placement == CollapsePlacement::midpoint ? "midpoint" : "lindstrom-turk";
@@ -68,7 +65,6 @@ bool is_paper_setting(const Iso2meshSetting& setting) {
          setting.smoothing.rounds == kPaperRounds;
 }
 
-/// The nearest among the outcomes of one method.
 std::vector<Iso2meshOutcome> of_method(const std::vector<Iso2meshOutcome>& outcomes, SmoothsurfMethod method) {
   std::vector<Iso2meshOutcome> result;
   for (const Iso2meshOutcome& outcome : outcomes)
@@ -84,7 +80,8 @@ std::string findings(const Iso2meshMoleculeStudy& study) {
     if (is_paper_setting(outcome.setting))
       text += fmt::format("- The paper's words with the default alpha ({}): {}.\n", describe(outcome.setting), summary_of(outcome));
   }
-  if (const Iso2meshOutcome* best = closest(of_method(study.outcomes, SmoothsurfMethod::laplacian), kPaperRounds))
+  const std::vector<Iso2meshOutcome> laplacian = of_method(study.outcomes, SmoothsurfMethod::laplacian);
+  if (const Iso2meshOutcome* best = closest(laplacian, kPaperRounds))
     text += fmt::format("- Closest of its Laplacian method after {} rounds: {}: {}.\n", kPaperRounds, describe(best->setting),
                         summary_of(*best));
   if (const Iso2meshOutcome* best = closest(study.outcomes, kPaperRounds))

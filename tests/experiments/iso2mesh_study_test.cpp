@@ -80,6 +80,8 @@ TEST(Iso2meshStudy, ThePageNamesTheClosestSettingAndThePapers) {
   const std::string page = study_markdown({study}, "the command");
   EXPECT_THAT(page, HasSubstr("## Some molecule"));
   EXPECT_THAT(page, HasSubstr("default alpha (midpoint, laplacian, alpha 0.5, 100 rounds): area -40.00 %, volume -7.00 %"));
+  EXPECT_THAT(page,
+              HasSubstr("Closest of its Laplacian method after 100 rounds: midpoint, laplacian, alpha 0.5, 100 rounds: area -40.00 %"));
   EXPECT_THAT(page, HasSubstr("**Closest to Figure 5 of all after 100 rounds: midpoint, laplacianhc, alpha 0.5, 100 rounds: area -5.00 %"));
   EXPECT_THAT(page, HasSubstr("paper's 57 intersecting pairs after 100 rounds:\n  - midpoint, laplacian, alpha 0.5, 100 rounds: area"));
   EXPECT_THAT(page, HasSubstr("Made by `the command`."));
