@@ -64,7 +64,9 @@ void add_reproduce(CLI::App& app, Context& context) {
       "  smopt reproduce --molecules ache-monomer --methods all -o results/ache");
   command->add_option("-o,--output", options->directory, "folder for records, tables and figures")->capture_default_str();
   command->add_option("--molecules", options->molecules, "only these, separated by commas")->delimiter(',');
-  command->add_option("--methods", options->methods, "names from the list above or from `smopt methods`, separated by commas, or all")
+  command
+      ->add_option("--methods", options->methods,
+                   "names from the list above or from `smopt methods`, separated by commas, or all by itself")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--repeats", options->repeats, "how often everything that is timed is run")
