@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "baselines/divergence_watch.h"
 #include "baselines/meshlab.h"
 #include "baselines/smoothing_run.h"
 #include "smopt/error.h"
@@ -16,7 +16,7 @@ namespace smopt::baselines {
 namespace {
 
 /// cot 3°: beyond this a cotangent says more about rounding than about the surface (pmp-library's bound).
-constexpr double kLargestCotangent = 19.08;
+constexpr double kLargestCotangent = 19.1;
 
 /// Cotangents at the three corners.
 using Cotangents = std::array<double, 3>;
@@ -26,7 +26,7 @@ Cotangents clamped_cotangents(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double doubled_area = ab.cross(-ca).norm();
   const auto cotangent = [doubled_area](const Vec3& p, const Vec3& q) {
     const double dot = p.dot(q);
-    if (!(doubled_area > 0)) return std::copysign(kLargestCotangent, dot);
+    if (!(doubled_area > 0)) return 0.0;
     return std::clamp(dot / doubled_area, -kLargestCotangent, kLargestCotangent);
   };
   return {cotangent(ab, -ca), cotangent(-ab, bc), cotangent(ca, -bc)};
@@ -90,10 +90,9 @@ class Smoother {
 MethodReport run_cotangent(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
   const CotangentOptions options{values.integer("rounds", 0), values.number("beta", 0)};
   MethodReport report;
-  const auto diverged = timed(report.seconds, "smoothing", [&]() -> std::optional<int> {
-    if (values.text("precision") == "float32") return smooth_meshlab(mesh, {options.rounds, MeshlabWeights::cotangent}, progress);
-    smooth_cotangent(mesh, options, progress);
-    return std::nullopt;
+  const auto diverged = timed(report.seconds, "smoothing", [&] {
+    return values.text("precision") == "float32" ? smooth_meshlab(mesh, {options.rounds, MeshlabWeights::cotangent}, progress)
+                                                 : smooth_cotangent(mesh, options, progress);
   });
   report_rounds(report, mesh, options.rounds, diverged);
   return report;
@@ -101,14 +100,17 @@ MethodReport run_cotangent(TriangleMesh& mesh, const OptionValues& values, const
 
 }  // namespace
 
-void smooth_cotangent(TriangleMesh& mesh, const CotangentOptions& options, const ProgressCallback& progress) {
+std::optional<int> smooth_cotangent(TriangleMesh& mesh, const CotangentOptions& options, const ProgressCallback& progress) {
+  DivergenceWatch watch(mesh.points);
   Smoother smoother(mesh, options.beta);
   std::vector<Vec3> next(mesh.points.size());
-  for (int round = 0; round < options.rounds; ++round) {
-    report_progress(progress, "smoothing", static_cast<double>(round) / options.rounds);
+  for (int round = 1; round <= options.rounds; ++round) {
+    report_progress(progress, "smoothing", static_cast<double>(round - 1) / options.rounds);
     smoother.step(mesh.points, next);
     mesh.points.swap(next);
+    watch.look(mesh.points, round);
   }
+  return watch.first_bad_step();
 }
 
 Method cotangent_method() {

@@ -48,7 +48,8 @@ class OptionValues {
 struct MethodReport {
   std::size_t redundant_valence3 = 0;
   std::size_t redundant_valence4 = 0;
-  std::vector<RoundReport> rounds;
+  std::size_t rounds_run = 0;
+  std::vector<RoundReport> rounds;  ///< each; empty where all are alike or the method does not say
   MoveCounts moves;
   std::size_t stuck = 0;
   double volume_before = 0;  ///< enclosed before smoothing, Å³; both 0 where a method does not say

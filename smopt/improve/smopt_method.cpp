@@ -110,6 +110,7 @@ MethodReport run_smopt(TriangleMesh& mesh, const OptionValues& values, const Pro
   report.redundant_valence3 = improved.redundant.valence3;
   report.redundant_valence4 = improved.redundant.valence4;
   report.rounds = std::move(improved.smoothing.rounds);
+  report.rounds_run = report.rounds.size();
   report.moves = improved.smoothing.moves;
   report.stuck = improved.smoothing.stuck;
   report.volume_before = improved.volume_before_smoothing;

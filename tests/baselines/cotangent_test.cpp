@@ -65,6 +65,12 @@ TEST(Cotangent, NeverDivergesWhereMeshlabsWeightsDo) {
   for (const Vec3& p : smoothed(mesh, {200, 0.5}).points) EXPECT_LE(p.norm(), 1.4);
 }
 
+TEST(Cotangent, SaysWhenItDiverges) {
+  // On a tetrahedron as uniform weights: beta 3 multiplies by −3, so that √3 · 3^k is beyond ten diagonals (34.6) for k = 3.
+  TriangleMesh mesh = tetrahedron();
+  EXPECT_EQ(smooth_cotangent(mesh, {5, 3}), 3);
+}
+
 TEST(Cotangent, RejectsAnOpenMesh) {
   TriangleMesh mesh = icosphere(1);
   mesh.triangles.pop_back();

@@ -68,7 +68,7 @@ TEST(Iso2meshMethod, SmoothsAsThePaperDidByDefault) {
   EXPECT_EQ(by_default.mesh.points, by_hand.points);
   EXPECT_EQ(by_default.mesh.triangles, mesh.triangles);
   EXPECT_THAT(by_default.report.notes, IsEmpty());
-  EXPECT_EQ(by_default.report.rounds.size(), 100U);
+  EXPECT_EQ(by_default.report.rounds_run, 100U);
 }
 
 TEST(Iso2meshMethod, ResamplesToTheNumberOfVertices) {

@@ -153,7 +153,7 @@ TEST(LaplacianMethod, CountsEveryVertexInEveryRound) {
   const Method method = laplacian_method();
   TriangleMesh mesh = icosphere(1);
   const MethodReport report = method.run(mesh, OptionValues(method.options, {{"rounds", "7"}}), {});
-  EXPECT_EQ(report.rounds.size(), 7U);
+  EXPECT_EQ(report.rounds_run, 7U);
   EXPECT_EQ(report.moves.accepted, 7U * 42U);
   EXPECT_EQ(report.moves.refused, 0U);
   EXPECT_EQ(report.stopped_because, "rounds");

@@ -54,7 +54,7 @@ TEST(MeshlabMethod, ReportsTheStepThatDivergedAndRunsOn) {
   const MethodReport report = method.run(mesh, OptionValues(method.options, {{"rounds", "200"}}), {});
   ASSERT_TRUE(report.diverged_at_step);
   EXPECT_EQ(report.stopped_because, "diverged at step " + std::to_string(*report.diverged_at_step));
-  EXPECT_EQ(report.rounds.size(), 200U);
+  EXPECT_EQ(report.rounds_run, 200U);
 }
 
 TEST(MeshlabMethod, HasMeshlabsDefaults) {

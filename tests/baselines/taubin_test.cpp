@@ -83,7 +83,7 @@ TEST(TaubinMethod, PassesItsOptionsOn) {
       method.run(by_method, OptionValues(method.options, {{"rounds", "4"}, {"lambda", "0.3"}, {"mu", "-0.35"}}), {});
   smooth_taubin(by_hand, {4, 0.3, -0.35});
   EXPECT_EQ(by_method.points, by_hand.points);
-  EXPECT_EQ(report.rounds.size(), 4U);
+  EXPECT_EQ(report.rounds_run, 4U);
   EXPECT_EQ(report.stopped_because, "rounds");
 }
 

@@ -175,6 +175,13 @@ TEST_F(Improve, AMethodThatDivergedIsWarnedOfAndReported) {
   EXPECT_TRUE(report_of({"--method", "laplacian"})["diverged_at_step"].is_null());
 }
 
+TEST_F(Improve, VerifyExitsWith1WhereThePairsCannotBeCounted) {
+  const ProgramResult r = improve({"--method", "laplacian", "--beta", "1e300", "--rounds", "3", "--verify", "--json"});
+  EXPECT_EQ(r.exit_code, 1);
+  EXPECT_THAT(r.err, HasSubstr("verified: 0 intersecting pairs before, an unknown number of after"));
+  EXPECT_TRUE(json::parse(r.out)["verified"]["pairs_after"].is_null());
+}
+
 TEST_F(Improve, SaysWhatAMethodNotes) {
   const ProgramResult r = improve({"--method", "iso2mesh", "--vertices", "500", "--rounds", "1"});
   EXPECT_THAT(r.err, HasSubstr("note: resampled from 642 to 500 vertices"));
