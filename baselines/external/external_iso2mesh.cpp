@@ -81,7 +81,9 @@ MethodReport run_external_iso2mesh(TriangleMesh& mesh, const OptionValues& value
   std::vector<std::string> command = {octave.string(), "--no-gui", "--no-history", "--no-init-file", program.string(), iso2mesh.string()};
   command.insert(command.end(), settings.begin(), settings.end());
   const std::string here = (folder / "").string();
-  return run_tool({kName, command, limits, {{{"LC_ALL", "C"}, {"TMPDIR", here}}, here}, folder / "out.off"}, mesh, progress);
+  return run_tool(
+      {kName, command, limits, {{{"LC_ALL", "C"}, {"TMPDIR", here}}, here}, folder / "out.off", read_mesh, values.integer("rounds", 0)},
+      mesh, progress);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ ProcessSurroundings surroundings_in(const ScratchFolder& folder) {
 
 MethodReport run_external_meshlab(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {
   const ProcessLimits limits = limits_of(values);
-  const std::string script = filter_script(values.integer("rounds", 0), values.text("weights") == "cotangent");
+  const int rounds = values.integer("rounds", 0);
+  const std::string script = filter_script(rounds, values.text("weights") == "cotangent");
   const fs::path server = require_program(kName, "meshlabserver", kHowToGet);
   const fs::path screen = require_program(kName, "xvfb-run", kHowToGet);
   require_program(kName, "xauth", kHowToGet);
@@ -57,7 +58,9 @@ MethodReport run_external_meshlab(TriangleMesh& mesh, const OptionValues& values
                    {screen.string(), "-a", server.string(), "-i", in.string(), "-o", out.string(), "-s", filter.string()},
                    limits,
                    surroundings_in(folder),
-                   out},
+                   out,
+                   read_mesh,
+                   rounds},
                   mesh, progress);
 }
 

@@ -104,6 +104,7 @@ MethodReport run_tool(const ToolRun& run, TriangleMesh& mesh, const ProgressCall
   TriangleMesh result = read_result(run, outcome);
 
   MethodReport report;
+  report.rounds_run = static_cast<std::size_t>(run.rounds);
   report.seconds.emplace_back("smoothing", Seconds{outcome.seconds, outcome.cpu_seconds});
   report.notes.emplace_back("the time is the tool's own process: it includes its start, its reading and its writing of files");
   DivergenceWatch watch(mesh.points);

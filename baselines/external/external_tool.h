@@ -34,6 +34,7 @@ struct ToolRun {
   ProcessSurroundings surroundings;
   std::filesystem::path result;                                                ///< the file in which the tool leaves the mesh
   std::function<TriangleMesh(const std::filesystem::path&)> read = read_mesh;  ///< reads it
+  int rounds = 0;                                                              ///< that it was asked for; 0 where it has none
 };
 
 /// Runs the tool and puts its mesh, whatever its number of vertices, in the place of `mesh`; the files it reads are the caller's business.

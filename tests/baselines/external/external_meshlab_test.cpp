@@ -42,6 +42,7 @@ TEST_F(ExternalMeshlab, HandsTheMeshOverToTheLastBit) {
   const MethodResult result = run_method(method_, mesh);
   EXPECT_EQ(result.mesh.points, mesh.points);
   EXPECT_EQ(result.mesh.triangles, mesh.triangles);
+  EXPECT_EQ(result.report.rounds_run, 3U) << "MeshLab's default";
 }
 
 TEST_F(ExternalMeshlab, WritesItsOptionsIntoTheFilter) {
