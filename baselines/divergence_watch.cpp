@@ -8,14 +8,10 @@ namespace {
 /// Of the bounding box: a mesh that has left ten of its own diagonals behind is lost, and no smoothing that works comes near it.
 constexpr double kDiagonals = 10;
 
-/// A ball around the centre of a box.
-struct Ball {
-  Vec3 centre = Vec3::Zero();
-  double radius = 0;
-};
+}  // namespace
 
 template <class Point>
-Ball allowed_ball(std::span<const Point> start) {
+DivergenceWatch::Ball DivergenceWatch::allowed_ball(std::span<const Point> start) {
   if (start.empty()) return {};
   Vec3 low = start.front().template cast<double>(), high = low;
   for (const Point& p : start) {
@@ -27,25 +23,22 @@ Ball allowed_ball(std::span<const Point> start) {
 
 /// "Not within" rather than "beyond", so that a coordinate that is no number counts.
 template <class Point>
-bool any_outside(std::span<const Point> points, const Vec3& centre, double radius) {
-  const double bound = radius * radius;
+bool DivergenceWatch::any_outside(std::span<const Point> points) const {
+  const double bound = allowed_.radius * allowed_.radius;
   return std::any_of(points.begin(), points.end(),
-                     [&](const Point& p) { return !((p.template cast<double>() - centre).squaredNorm() <= bound); });
+                     [&](const Point& p) { return !((p.template cast<double>() - allowed_.centre).squaredNorm() <= bound); });
 }
 
-}  // namespace
+DivergenceWatch::DivergenceWatch(std::span<const Vec3> start) : allowed_(allowed_ball(start)) {}
 
-DivergenceWatch::DivergenceWatch(std::span<const Vec3> start) : centre_(allowed_ball(start).centre), radius_(allowed_ball(start).radius) {}
-
-DivergenceWatch::DivergenceWatch(std::span<const Eigen::Vector3f> start)
-    : centre_(allowed_ball(start).centre), radius_(allowed_ball(start).radius) {}
+DivergenceWatch::DivergenceWatch(std::span<const Eigen::Vector3f> start) : allowed_(allowed_ball(start)) {}
 
 void DivergenceWatch::look(std::span<const Vec3> points, int step) {
-  if (!first_bad_step_ && any_outside(points, centre_, radius_)) first_bad_step_ = step;
+  if (!first_bad_step_ && any_outside(points)) first_bad_step_ = step;
 }
 
 void DivergenceWatch::look(std::span<const Eigen::Vector3f> points, int step) {
-  if (!first_bad_step_ && any_outside(points, centre_, radius_)) first_bad_step_ = step;
+  if (!first_bad_step_ && any_outside(points)) first_bad_step_ = step;
 }
 
 }  // namespace smopt::baselines

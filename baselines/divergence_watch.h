@@ -22,8 +22,17 @@ class DivergenceWatch {
   [[nodiscard]] std::optional<int> first_bad_step() const { return first_bad_step_; }
 
  private:
-  Vec3 centre_ = Vec3::Zero();
-  double radius_ = 0;
+  /// Where vertices may be.
+  struct Ball {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0;
+  };
+  template <class Point>
+  static Ball allowed_ball(std::span<const Point> start);
+  template <class Point>
+  [[nodiscard]] bool any_outside(std::span<const Point> points) const;
+
+  Ball allowed_;
   std::optional<int> first_bad_step_;
 };
 

@@ -45,7 +45,8 @@ MethodReport run_iso2mesh(TriangleMesh& mesh, const OptionValues& values, const 
   MethodReport report;
   if (resampling.vertices > 0) {
     const ResampleReport resampled = timed(report.seconds, "resampling", [&] { return resample(mesh, resampling, progress); });
-    report.notes.push_back(resampling_note(resampled, resampling.vertices, check_validity(mesh).is_closed_manifold()));
+    const bool is_closed = resampled.merged_vertices == 0 || check_validity(mesh).is_closed_manifold();  // collapses alone keep it closed
+    report.notes.push_back(resampling_note(resampled, resampling.vertices, is_closed));
   }
   const auto diverged = timed(report.seconds, "smoothing", [&] { return smoothsurf(mesh, smoothing, progress); });
   report_rounds(report, mesh, smoothing.rounds, diverged);

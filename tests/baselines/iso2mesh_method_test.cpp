@@ -7,6 +7,7 @@
 #include "baselines/laplacian.h"
 #include "smopt/error.h"
 #include "smopt/io/mesh_io.h"
+#include "tests/baselines/method_run.h"
 #include "tests/support/files.h"
 #include "tests/support/matchers.h"
 #include "tests/support/shapes.h"
@@ -24,16 +25,8 @@ TriangleMesh smoothed(TriangleMesh mesh, const SmoothsurfOptions& options) {
   return mesh;
 }
 
-/// What the entry of the registry does to a mesh.
-struct Outcome {
-  TriangleMesh mesh;
-  MethodReport report;
-};
-
-Outcome run(TriangleMesh mesh, const std::map<std::string, std::string>& given) {
-  const Method method = iso2mesh_method();
-  MethodReport report = method.run(mesh, OptionValues(method.options, given), {});
-  return {std::move(mesh), std::move(report)};
+MethodResult run(TriangleMesh mesh, const std::map<std::string, std::string>& given) {
+  return run_method(iso2mesh_method(), std::move(mesh), given);
 }
 
 TEST(Smoothsurf, RoundOfATetrahedronByHand) {
@@ -62,7 +55,7 @@ TEST(Smoothsurf, SaysWhenItDiverges) {
 
 TEST(Iso2meshMethod, SmoothsAsThePaperDidByDefault) {
   const TriangleMesh mesh = noisy(icosphere(2), 0.03, 3);
-  const Outcome by_default = run(mesh, {});
+  const MethodResult by_default = run(mesh, {});
   TriangleMesh by_hand = mesh;
   smooth_laplacian(by_hand, {100, 0.5, SweepOrder::jacobi});
   EXPECT_EQ(by_default.mesh.points, by_hand.points);
@@ -73,7 +66,7 @@ TEST(Iso2meshMethod, SmoothsAsThePaperDidByDefault) {
 
 TEST(Iso2meshMethod, ResamplesToTheNumberOfVertices) {
   for (const char* placement : {"midpoint", "lindstrom-turk"}) {
-    const Outcome result = run(noisy(icosphere(4), 0.01, 3), {{"vertices", "2000"}, {"placement", placement}, {"rounds", "3"}});
+    const MethodResult result = run(noisy(icosphere(4), 0.01, 3), {{"vertices", "2000"}, {"placement", placement}, {"rounds", "3"}});
     EXPECT_NEAR(static_cast<double>(result.mesh.vertex_count()), 2000, 2) << placement;
     EXPECT_THAT(result.mesh, IsClosedManifold());
     EXPECT_THAT(result.report.notes, ElementsAre(HasSubstr("resampled from 2562 to 200")));
@@ -85,12 +78,12 @@ TEST(Iso2meshMethod, ResamplesToTheNumberOfVertices) {
 TEST(Iso2meshMethod, MatchesTheVerticesOfAnotherMesh) {
   const TemporaryFolder folder;
   write_mesh(folder.path() / "other.off", icosphere(2));
-  const Outcome result = run(icosphere(3), {{"match", (folder.path() / "other.off").string()}, {"rounds", "1"}});
+  const MethodResult result = run(icosphere(3), {{"match", (folder.path() / "other.off").string()}, {"rounds", "1"}});
   EXPECT_EQ(result.mesh.vertex_count(), 162U);
 }
 
 TEST(Iso2meshMethod, DoesNotRefine) {
-  const Outcome result = run(icosphere(1), {{"vertices", "100"}, {"rounds", "0"}});
+  const MethodResult result = run(icosphere(1), {{"vertices", "100"}, {"rounds", "0"}});
   EXPECT_EQ(result.mesh.points, icosphere(1).points);
   EXPECT_THAT(result.report.notes, ElementsAre(HasSubstr("not resampled: 100 vertices were asked for, and the mesh has 42")));
 }

@@ -6,6 +6,7 @@
 #include "smopt/error.h"
 #include "smopt/io/off.h"
 #include "tests/baselines/cgal/shapes.h"
+#include "tests/baselines/method_run.h"
 #include "tests/support/matchers.h"
 #include "tests/support/shapes.h"
 #include "tests/support/threads.h"
@@ -25,15 +26,8 @@ const MethodRegistry& registry() {
   return methods;
 }
 
-struct Outcome {
-  TriangleMesh mesh;
-  MethodReport report;
-};
-
-Outcome run(const std::string& name, TriangleMesh mesh, const Given& given = {}, const ProgressCallback& progress = {}) {
-  const Method& method = registry().find(name);
-  MethodReport report = method.run(mesh, OptionValues(method.options, given), progress);
-  return {std::move(mesh), std::move(report)};
+MethodResult run(const std::string& name, TriangleMesh mesh, const Given& given = {}, const ProgressCallback& progress = {}) {
+  return run_method(registry().find(name), std::move(mesh), given, progress);
 }
 
 /// Two components, one of them with a hole through it; noise that no method meets by symmetry.
@@ -123,7 +117,7 @@ TEST_P(CgalMethod, RefusesCoordinatesWhosePowersOverflow) {
 
 TEST_P(CgalSmoothing, MovesNothingInZeroRounds) {
   const TriangleMesh mesh = test_mesh();
-  const Outcome outcome = run(GetParam(), mesh, {{"rounds", "0"}});
+  const MethodResult outcome = run(GetParam(), mesh, {{"rounds", "0"}});
   EXPECT_EQ(outcome.mesh.points, mesh.points);
   EXPECT_EQ(outcome.mesh.triangles, mesh.triangles);
 }

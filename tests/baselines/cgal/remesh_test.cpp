@@ -4,6 +4,7 @@
 #include "baselines/cgal/remesh_method.h"
 #include "smopt/error.h"
 #include "smopt/io/mesh_io.h"
+#include "tests/baselines/method_run.h"
 #include "tests/support/files.h"
 #include "tests/support/matchers.h"
 #include "tests/support/shapes.h"
@@ -15,15 +16,8 @@ using namespace smopt::testing;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-struct Outcome {
-  TriangleMesh mesh;
-  MethodReport report;
-};
-
-Outcome run(TriangleMesh mesh, const std::map<std::string, std::string>& given) {
-  const Method method = remesh_method();
-  MethodReport report = method.run(mesh, OptionValues(method.options, given), {});
-  return {std::move(mesh), std::move(report)};
+MethodResult run(TriangleMesh mesh, const std::map<std::string, std::string>& given) {
+  return run_method(remesh_method(), std::move(mesh), given);
 }
 
 TriangleMesh remeshed(TriangleMesh mesh, const RemeshingOptions& options) {
@@ -116,7 +110,7 @@ TEST(Remeshing, GoesWithRigidMotionsOnTheWhole) {
 TEST(RemeshMethod, TakesTheMeansLengthByDefaultAndSaysSo) {
   const TriangleMesh mesh = icosphere(3, 5.0);
   const RemeshingOptions options{.edge_length = mean_edge_length(mesh)};
-  const Outcome outcome = run(mesh, {});
+  const MethodResult outcome = run(mesh, {});
   EXPECT_EQ(outcome.mesh.points, remeshed(mesh, options).points);
   EXPECT_THAT(outcome.report.notes, Contains(HasSubstr("edge length 0.")));
 }
@@ -124,7 +118,7 @@ TEST(RemeshMethod, TakesTheMeansLengthByDefaultAndSaysSo) {
 TEST(RemeshMethod, MeetsANumberOfVertices) {
   const TriangleMesh mesh = noisy(torus(3, 1, 60, 30), 0.01, 6);
   for (const std::size_t target : {700U, 1800U, 5000U}) {
-    const Outcome outcome = run(mesh, {{"vertices", std::to_string(target)}});
+    const MethodResult outcome = run(mesh, {{"vertices", std::to_string(target)}});
     EXPECT_NEAR(static_cast<double>(outcome.mesh.vertex_count()), static_cast<double>(target), 0.01 * static_cast<double>(target));
     EXPECT_THAT(outcome.report.notes, Contains(HasSubstr(std::to_string(target) + " asked for")));
     EXPECT_EQ(outcome.report.seconds.front().first, "smoothing");
@@ -139,7 +133,7 @@ TEST(RemeshMethod, MeetsTheNumberOfVerticesOfAMesh) {
 }
 
 TEST(RemeshMethod, SaysWhenTheNumberIsMissed) {
-  const Outcome outcome = run(torus(3, 1, 60, 30), {{"vertices", "4"}});  // no torus has so few
+  const MethodResult outcome = run(torus(3, 1, 60, 30), {{"vertices", "4"}});  // no torus has so few
   EXPECT_THAT(outcome.report.notes, Contains(HasSubstr("missed by more than 1 %")));
 }
 

@@ -40,13 +40,6 @@ void ToolTest::set_variable(const std::string& name, const char* value) {
   value != nullptr ? setenv(name.c_str(), value, 1) : unsetenv(name.c_str());
 }
 
-MethodResult run_method(const Method& method, TriangleMesh mesh, const std::map<std::string, std::string>& options,
-                        const ProgressCallback& progress) {
-  MethodResult result{std::move(mesh), {}};
-  result.report = method.run(result.mesh, OptionValues(method.options, options), progress);
-  return result;
-}
-
 std::string failure_of(const Method& method, const std::map<std::string, std::string>& options) {
   try {
     run_method(method, testing::icosphere(0), options);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "smopt/improve/method.h"
+#include "tests/baselines/method_run.h"
 #include "tests/support/files.h"
 #include "tests/support/shapes.h"
 
@@ -30,14 +31,6 @@ class ToolTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
   std::map<std::string, std::optional<std::string>> before_;
 };
-
-/// What a method makes of a mesh.
-struct MethodResult {
-  TriangleMesh mesh;
-  MethodReport report;
-};
-MethodResult run_method(const Method& method, TriangleMesh mesh, const std::map<std::string, std::string>& options = {},
-                        const ProgressCallback& progress = {});
 
 /// What the MethodFailed says that running the method throws; a failure of the test when it throws none.
 std::string failure_of(const Method& method, const std::map<std::string, std::string>& options = {});
