@@ -349,11 +349,13 @@ class BodyReader {
   TriangleMesh mesh_;
 };
 
-std::string header_text(const TriangleMesh& mesh, bool is_signed_index) {
+std::string header_text(const TriangleMesh& mesh, std::span<const VertexScalars> scalars, bool is_signed_index) {
+  std::string properties;
+  for (const VertexScalars& s : scalars) properties += fmt::format("property double {}\n", s.name);
   return fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
       "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-      mesh.points.size(), mesh.triangles.size(), is_signed_index ? "int" : "uint");
+      mesh.points.size(), properties, mesh.triangles.size(), is_signed_index ? "int" : "uint");
 }
 
 }  // namespace
@@ -367,12 +369,18 @@ TriangleMesh parse_ply(std::string_view bytes, const std::string& name) {
 }
 
 std::string format_ply(const TriangleMesh& mesh, const MeshWriteOptions&) {
+  return format_ply_with_scalars(mesh, {});
+}
+
+std::string format_ply_with_scalars(const TriangleMesh& mesh, std::span<const VertexScalars> scalars) {
   // Many readers know `int` only; `uint` where there are more vertices than it can count.
   const bool is_signed_index = mesh.points.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  std::string out = header_text(mesh, is_signed_index);
-  out.reserve(out.size() + mesh.points.size() * 3 * sizeof(double) + mesh.triangles.size() * (1 + 3 * sizeof(VertexId)));
-  for (const Vec3& p : mesh.points)
-    for (int k = 0; k < 3; ++k) append_little_endian(out, p[k]);
+  std::string out = header_text(mesh, scalars, is_signed_index);
+  out.reserve(out.size() + mesh.points.size() * (3 + scalars.size()) * sizeof(double) + mesh.triangles.size() * (1 + 3 * sizeof(VertexId)));
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    for (int k = 0; k < 3; ++k) append_little_endian(out, mesh.points[v][k]);
+    for (const VertexScalars& s : scalars) append_little_endian(out, s.values[v]);
+  }
   for (const Triangle& t : mesh.triangles) {
     append_little_endian(out, std::uint8_t{3});
     for (const VertexId v : t) append_little_endian(out, v);

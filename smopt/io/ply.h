@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,5 +19,8 @@ TriangleMesh parse_ply(std::string_view bytes, const std::string& name);
 
 /// The mesh as binary little-endian PLY with coordinates in double precision; `options.digits` means nothing here.
 std::string format_ply(const TriangleMesh& mesh, const MeshWriteOptions& options);
+
+/// The same with these numbers as further `double` properties of the vertices; each has one value a vertex and a name without blanks.
+std::string format_ply_with_scalars(const TriangleMesh& mesh, std::span<const VertexScalars> scalars);
 
 }  // namespace smopt

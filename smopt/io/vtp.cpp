@@ -111,18 +111,20 @@ class PolyDataReader {
   TriangleMesh mesh_;
 };
 
-/// Writes the arrays one by one, as text or as base64 with the size in front.
+/// Writes the arrays one by one, as text (without scalars) or as base64 with the size in front.
 class PolyDataWriter {
  public:
-  PolyDataWriter(const TriangleMesh& mesh, int digits) : mesh_(mesh), digits_(digits), out_(digits) {}
+  PolyDataWriter(const TriangleMesh& mesh, std::span<const VertexScalars> scalars, int digits)
+      : mesh_(mesh), scalars_(scalars), digits_(digits), out_(digits) {}
 
   std::string write() {
     out_.text(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n<PolyData>\n");
-    out_.text(fmt::format(
-        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n<Points>\n",
-        mesh_.points.size(), mesh_.triangles.size()));
+    out_.text(
+        fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
+                    mesh_.points.size(), mesh_.triangles.size()));
+    if (!scalars_.empty()) write_scalars();
     is_text() ? write_text() : write_base64();
     out_.text("</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n");
     return out_.take();
@@ -134,13 +136,28 @@ class PolyDataWriter {
   void begin_array(std::string_view attributes) {
     out_.text(fmt::format("<DataArray {} format=\"{}\">\n", attributes, is_text() ? "ascii" : "binary"));
   }
-  void begin_points() { begin_array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\""); }
+  void begin_points() {
+    out_.text("<Points>\n");
+    begin_array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"");
+  }
   void begin_connectivity() { begin_array("type=\"Int64\" Name=\"connectivity\""); }
   void begin_offsets() { begin_array("type=\"Int64\" Name=\"offsets\""); }
   void end_array() { out_.text("</DataArray>\n"); }
   void end_points() {
     end_array();
     out_.text("</Points>\n<Polys>\n");
+  }
+
+  void write_scalars() {
+    out_.text(fmt::format("<PointData Scalars=\"{}\">\n", scalars_.front().name));
+    for (const VertexScalars& s : scalars_) {
+      begin_array(fmt::format("type=\"Float64\" Name=\"{}\"", s.name));
+      std::string bytes = sized(s.values.size());
+      for (const double value : s.values) append_little_endian(bytes, value);
+      out_.text(encode_base64(bytes)).text("\n");
+      end_array();
+    }
+    out_.text("</PointData>\n");
   }
 
   void write_text() {
@@ -184,6 +201,7 @@ class PolyDataWriter {
   }
 
   const TriangleMesh& mesh_;
+  std::span<const VertexScalars> scalars_;
   int digits_;
   TextWriter out_;
 };
@@ -195,7 +213,11 @@ TriangleMesh parse_vtp(std::string_view document, const std::string& name) {
 }
 
 std::string format_vtp(const TriangleMesh& mesh, const MeshWriteOptions& options) {
-  return PolyDataWriter(mesh, options.digits).write();
+  return PolyDataWriter(mesh, {}, options.digits).write();
+}
+
+std::string format_vtp_with_scalars(const TriangleMesh& mesh, std::span<const VertexScalars> scalars) {
+  return PolyDataWriter(mesh, scalars, 0).write();
 }
 
 }  // namespace smopt

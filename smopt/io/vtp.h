@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,5 +17,8 @@ TriangleMesh parse_vtp(std::string_view document, const std::string& name);
 
 /// The mesh as VTK PolyData: base64 doubles, which lose nothing, or with `options.digits` a text of that many digits.
 std::string format_vtp(const TriangleMesh& mesh, const MeshWriteOptions& options);
+
+/// The same, base64, with these numbers as point data; each has one value a vertex, and a name that XML need not quote.
+std::string format_vtp_with_scalars(const TriangleMesh& mesh, std::span<const VertexScalars> scalars);
 
 }  // namespace smopt
