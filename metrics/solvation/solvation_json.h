@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "metrics/solvation/solvate.h"
+
+namespace smopt::metrics {
+
+/// What `smopt solvate --json` prints: everything but the numbers at the vertices. A number that is not finite is null.
+nlohmann::ordered_json to_json(const Solvation& result);
+
+}  // namespace smopt::metrics
