@@ -10,32 +10,42 @@
 
 namespace smopt::experiments {
 
-/// What APBS takes for the boundary of the solute: a probe sphere of 1.4 Å rolls over the atoms and its inward side is taken (molecular), the
-/// same with the permittivity smoothed from one side to the other by a harmonic average over neighbouring nodes (smoothed), or the atoms' spheres
-/// themselves (van der Waals). None is a Gaussian surface; the first two are the nearest to one.
-enum class ApbsSurface { molecular, smoothed_molecular, van_der_waals };
-
-/// "molecular", "molecular, smoothed", "van der Waals".
-std::string_view to_string(ApbsSurface surface);
-
-/// The finer of the two nested grids of APBS's `mg-auto`, around the atoms' bounding box.
-struct ApbsGrid {
-  std::array<int, 3> nodes{};  ///< along each axis: 32·c + 1, which its multigrid can halve five times
-  Vec3 fine_length;            ///< edges of the box, Å
-  Vec3 coarse_length;          ///< of the box whose solution gives the finer one its boundary values, Å
-
-  [[nodiscard]] Vec3 spacing() const;
-  /// What APBS needs for it, in MB: 230 bytes a node and 120 MB, the largest of eight runs of 65³ to 225³ nodes but for 129³, which takes 230 MB
-  /// more.
-  [[nodiscard]] double memory_mb() const;
+/// What APBS takes for the boundary of the solute.
+enum class ApbsSurface {
+  molecular,           ///< where a probe sphere of 1.4 Å rolls over the atoms
+  smoothed_molecular,  ///< the same, the permittivity smoothed by a harmonic average over neighbouring nodes
+  van_der_waals,       ///< the atoms' spheres
+  gaussian             ///< this project's own, φ = c, by maps of the permittivity: what is left is the difference of the methods
 };
 
-/// The grid whose spacing is at most `spacing` along every axis. \pre at least one atom. \throws InvalidOption unless spacing is positive.
+/// "molecular", "molecular, smoothed", "van der Waals", "Gaussian".
+std::string_view to_string(ApbsSurface surface);
+
+/// The grid around the atoms' bounding box.
+struct ApbsGrid {
+  std::array<int, 3> nodes{};  ///< along each axis: 32·c + 1, which its multigrid can halve five times
+  double spacing = 0;          ///< Å
+  Vec3 center = Vec3::Zero();
+  Vec3 coarse_length = Vec3::Zero();  ///< of the coarser grid whose solution gives this one its boundary values (`mg-auto`), Å
+
+  [[nodiscard]] Vec3 length() const { return spacing * Vec3(nodes[0] - 1, nodes[1] - 1, nodes[2] - 1); }
+  [[nodiscard]] Vec3 low() const { return center - length() / 2; }
+  [[nodiscard]] double node_count() const { return static_cast<double>(nodes[0]) * nodes[1] * nodes[2]; }
+  /// What APBS needs for it, in MB: 230 bytes a node and 120 MB, the largest of eight runs of 65³ to 225³ nodes but for 129³, which takes 230 MB
+  /// more; and maps, where the surface needs them.
+  [[nodiscard]] double memory_mb(ApbsSurface surface) const;
+};
+
+/// The grid of a spacing around a molecule. \pre at least one atom. \throws InvalidOption unless spacing is positive, and for more nodes than any
+/// machine holds.
 ApbsGrid apbs_grid(const Molecule& molecule, double spacing);
+
+/// The maps that a Gaussian surface needs: the permittivity half a step along x, y and z from each node, and where the ions are.
+inline constexpr std::array<std::string_view, 4> kApbsMaps = {"permittivity_x.dx", "permittivity_y.dx", "permittivity_z.dx", "ions.dx"};
 
 /// The input file for the polar solvation energy of a molecule read from `pqr`: the solvated solute minus the same in a medium of its own
 /// permittivity without ions, on the same grid, so that the grid's self-energies cancel. Charges are spread by cubic B-splines; the ions have no
-/// radius, since a boundary-element solver has no layer without ions.
+/// radius, since a boundary-element solver has no layer without ions. A Gaussian surface's maps are read from `kApbsMaps`.
 std::string apbs_input(std::string_view pqr, const metrics::DielectricModel& medium, ApbsSurface surface, const ApbsGrid& grid);
 
 /// The molecule as PQR, one atom a line, to 1e-6.
