@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "metrics/solvation/point_sources.h"
 #include "smopt/geometry/vec3.h"
 
 namespace smopt::metrics {
@@ -50,12 +51,6 @@ using ConstGridValues = Eigen::Ref<const Eigen::VectorXd>;
 
 /// Coordinates of the grid's points along each axis, one per grid point.
 std::array<Eigen::VectorXd, 3> grid_points(const ChebyshevBasis& basis, const GridBox& box);
-
-/// Charges and dipoles at points, or potentials and gradients: a number and a vector for each.
-struct PointMoments {
-  Eigen::VectorXd number;
-  Eigen::MatrixX3d vector;  ///< a row each
-};
 
 /// The Chebyshev polynomials of a box at some points in it, and their derivatives: what takes moments of points to coefficients and back.
 class PointBasis {

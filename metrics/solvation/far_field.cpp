@@ -1,7 +1,6 @@
 #include "metrics/solvation/far_field.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "metrics/solvation/batches.h"
 #include "smopt/error.h"
 
 namespace smopt::metrics {
@@ -31,9 +31,6 @@ struct ErrorOfDegree {
 constexpr ErrorOfDegree kErrors[] = {{1.5e-2, 2}, {2.5e-3, 3}, {2.5e-4, 4}, {3e-5, 5}, {4e-6, 6},
                                      {6e-7, 7},   {1e-7, 8},   {2e-8, 9},   {5e-9, 10}};
 
-/// Progress is reported so many times a stage.
-constexpr std::size_t kBatches = 16;
-
 const std::vector<Vec3>& require_finite(const std::vector<Vec3>& points) {
   if (points.size() >= std::numeric_limits<std::uint32_t>::max()) throw InvalidInput("far field: more than 2^32 points");
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -55,36 +52,14 @@ std::size_t grid_size(int degree) {
   return along * along * along;
 }
 
-/// Lanes for targets whose coordinates come from `coordinate(i, axis)`; sums are 0.
-template <class Coordinate>
-std::vector<TargetLanes> lanes_for(std::size_t count, const Coordinate& coordinate) {
-  std::vector<TargetLanes> lanes((count + kTargetLanes - 1) / kTargetLanes);
-  for (std::size_t i = 0; i < lanes.size() * kTargetLanes; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      lanes[i / kTargetLanes].position[axis][i % kTargetLanes] = coordinate(static_cast<Eigen::Index>(std::min(i, count - 1)), axis);
-  return lanes;
-}
-
-/// Calls work(i) for all i < count on all threads, and reports now and then from the calling one.
-template <class Work>
-void in_batches(std::size_t count, const ProgressCallback& progress, std::string_view stage, const Work& work) {
-  for (std::size_t batch = 0; batch < kBatches; ++batch) {
-    report_progress(progress, stage, static_cast<double>(batch) / kBatches);
-    tbb::parallel_for(count * batch / kBatches, count * (batch + 1) / kBatches, work);
-  }
-  report_progress(progress, stage, 1);
-}
-
 }  // namespace
 
-FarField::FarField(const std::vector<Vec3>& points, const FarFieldOptions& options)
+FarField::FarField(const std::vector<Vec3>& points, const FarFieldOptions& options, const std::vector<double>& reaches)
     : options_(require_valid(options)),
       tree_(require_finite(points), static_cast<std::size_t>(options.leaf_size)),
-      lists_(interaction_lists(tree_, options.theta)),
+      lists_(interaction_lists(tree_, options.theta, largest_reaches(tree_, reaches))),
       basis_(options.degree),
-      points_(points.size(), 3) {
-  for (std::size_t place = 0; place < points.size(); ++place)
-    points_.row(static_cast<Eigen::Index>(place)) = points[tree_.order()[place]].transpose();
+      points_(in_tree_order(tree_, points)) {
   make_grids();
   if (!tree_.is_empty()) find_blocks(0, 0);
 }
@@ -127,9 +102,8 @@ std::uint64_t FarField::near_pair_count() const {
 
 class FarField::Sum {
  public:
-  Sum(const FarField& far, const std::vector<PointSources>& sources) : far_(far) {
+  Sum(const FarField& far, const std::vector<PointSources>& sources) : far_(far), sources_(far.tree_, sources) {
     for (std::size_t kernel = 0; kernel < kKernels; ++kernel) {
-      sources_[kernel] = in_tree_order(sources, kernel);
       charges_[kernel] = potentials_[kernel] = Eigen::MatrixXd::Zero(far.nodes_[0].rows(), far.nodes_[0].cols());
     }
   }
@@ -156,7 +130,7 @@ class FarField::Sum {
   void exchange(std::size_t grid) {
     const auto g = static_cast<Eigen::Index>(grid);
     auto lanes = lanes_for(static_cast<std::size_t>(far_.nodes_[0].rows()),
-                           [&](Eigen::Index i, std::size_t axis) { return far_.nodes_[axis](i, g); });
+                           [&](Eigen::Index i, Eigen::Index axis) { return far_.nodes_[static_cast<std::size_t>(axis)](i, g); });
     add_far_sources(far_.grid_clusters_[grid], lanes, TargetKind::potentials);
     for (std::size_t kernel = 0; kernel < kKernels; ++kernel)
       for (Eigen::Index i = 0; i < far_.nodes_[0].rows(); ++i) {
@@ -186,19 +160,6 @@ class FarField::Sum {
   }
 
  private:
-  /// With the kernels' factor 1/4π.
-  [[nodiscard]] PointMoments in_tree_order(const std::vector<PointSources>& sources, std::size_t kernel) const {
-    const auto& order = far_.tree_.order();
-    const auto count = static_cast<Eigen::Index>(order.size());
-    PointMoments moments{Eigen::VectorXd(count), Eigen::MatrixX3d(count, 3)};
-    for (Eigen::Index place = 0; place < count; ++place) {
-      const ChargeAndDipole& source = sources[order[static_cast<std::size_t>(place)]][kernel];
-      moments.number[place] = source.charge * (std::numbers::inv_pi / 4);
-      moments.vector.row(place) = source.dipole.transpose() * (std::numbers::inv_pi / 4);
-    }
-    return moments;
-  }
-
   [[nodiscard]] Eigen::Index column_of(ClusterId cluster) const { return far_.grid_of_[cluster]; }
   [[nodiscard]] Eigen::MatrixXd::ColXpr column(Eigen::MatrixXd& of_grids, ClusterId cluster) const {
     return of_grids.col(column_of(cluster));
@@ -222,19 +183,6 @@ class FarField::Sum {
     }
   }
 
-  [[nodiscard]] SourceView points_as_sources(ClusterId cluster) const {
-    const Cluster& c = far_.tree_[cluster];
-    SourceView view;
-    view.count = c.size();
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      view.position[axis] = far_.points_.col(axis).data() + c.begin;
-      for (std::size_t kernel = 0; kernel < kKernels; ++kernel)
-        view.dipole[kernel][axis] = sources_[kernel].vector.col(axis).data() + c.begin;
-    }
-    for (std::size_t kernel = 0; kernel < kKernels; ++kernel) view.charge[kernel] = sources_[kernel].number.data() + c.begin;
-    return view;
-  }
-
   [[nodiscard]] SourceView grid_as_sources(ClusterId cluster) const {
     SourceView view;
     view.count = static_cast<std::size_t>(far_.nodes_[0].rows());
@@ -248,7 +196,8 @@ class FarField::Sum {
       if (far_.has_grid(source)) {
         add_pair_sums(grid_as_sources(source), far_.options_.kappa, lanes, SourceKind::charges, target_kind);
       } else {
-        add_pair_sums(points_as_sources(source), far_.options_.kappa, lanes, SourceKind::charges_and_dipoles, target_kind);
+        add_pair_sums(sources_.view(far_.tree_[source], far_.points_), far_.options_.kappa, lanes, SourceKind::charges_and_dipoles,
+                      target_kind);
       }
     }
   }
@@ -267,24 +216,13 @@ class FarField::Sum {
   }
 
   void add_at_points(ClusterId cluster, std::vector<PointFields>& fields) const {
-    const auto coordinates = far_.points_of(cluster);
-    auto lanes = lanes_for(far_.tree_[cluster].size(),
-                           [&](Eigen::Index i, std::size_t axis) { return coordinates(i, static_cast<Eigen::Index>(axis)); });
+    auto lanes = lanes_of(far_.tree_[cluster], far_.points_);
     add_far_sources(cluster, lanes, TargetKind::potentials_and_gradients);
-    const auto points = far_.tree_.points_of(cluster);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const TargetLanes& at = lanes[i / kTargetLanes];
-      const std::size_t lane = i % kTargetLanes;
-      for (std::size_t kernel = 0; kernel < kKernels; ++kernel) {
-        PotentialAndGradient& field = fields[points[i]][kernel];
-        field.potential += at.potential[kernel][lane];
-        field.gradient += Vec3(at.gradient[kernel][0][lane], at.gradient[kernel][1][lane], at.gradient[kernel][2][lane]);
-      }
-    }
+    add_to_fields(lanes, far_.tree_.points_of(cluster), fields);
   }
 
   const FarField& far_;
-  std::array<PointMoments, kKernels> sources_;     // in the tree's order
+  TreeSources sources_;
   std::array<Eigen::MatrixXd, kKernels> charges_;  // a column a grid
   std::array<Eigen::MatrixXd, kKernels> potentials_;
 };
@@ -327,7 +265,7 @@ double far_field_bytes(std::size_t points, const FarFieldOptions& options) {
   constexpr double kEntryBytes = sizeof(ClusterId) + 2 * sizeof(ClusterId);
   const auto n = static_cast<double>(points);
   const double clusters = 1 + kClustersByLeaves * n / options.leaf_size;
-  const double entries = clusters * kListsByTheta / (options.theta * options.theta);
+  const double entries = std::min(clusters * kListsByTheta / (options.theta * options.theta), clusters * clusters);
   return n * kPointBytes + kGridPointsByPoints * n * kGridPointBytes + clusters * kClusterBytes + entries * kEntryBytes;
 }
 

@@ -9,7 +9,7 @@
 #include "metrics/solvation/chebyshev_grid.h"
 #include "metrics/solvation/cluster_tree.h"
 #include "metrics/solvation/interaction_lists.h"
-#include "metrics/solvation/pair_sums.h"
+#include "metrics/solvation/point_sources.h"
 #include "smopt/geometry/vec3.h"
 #include "smopt/progress.h"
 
@@ -39,18 +39,6 @@ inline constexpr int kHighestDegree = 16;
 /// Throws InvalidOption for a tolerance below 5e-9, or not below 1.
 FarFieldOptions options_for(double tolerance, double kappa);
 
-struct ChargeAndDipole {
-  double charge = 0;
-  Vec3 dipole = Vec3::Zero();
-};
-struct PotentialAndGradient {
-  double potential = 0;
-  Vec3 gradient = Vec3::Zero();
-};
-/// Of one point, for the kernels kPlain and kScreened.
-using PointSources = std::array<ChargeAndDipole, kKernels>;
-using PointFields = std::array<PotentialAndGradient, kKernels>;
-
 /// Sums over the pairs of points that are far from each other, for both kernels G(r) = 1/(4πr) and exp(-kappa·r)/(4πr):
 ///
 ///   potential(x_i) = Σ_j q_j G(|x_i - y_j|) + d_j·∇_y G(|x_i - y_j|), and its gradient in x_i.
@@ -58,7 +46,7 @@ using PointFields = std::array<PotentialAndGradient, kKernels>;
 /// The barycentric-Lagrange dual-tree traversal (Wilson, Vaughn & Krasny 2021, Comput. Phys. Commun. 265:108017; Wilson, Geng & Krasny 2022,
 /// J. Phys. Chem. B 126:7104): a cluster of points is replaced by charges at a tensor grid of Chebyshev points, between well-separated clusters
 /// only grids interact, and a polynomial brings potentials and gradients from the grid to the points. A cluster that has fewer points than its grid
-/// would have takes part with its points, by the formulas themselves. Pairs that are not far are the caller's: `near_sources`.
+/// would have takes part with its points, by the formulas themselves. Pairs that are not far are the caller's: `near_sources` (see NearField).
 ///
 /// Cost: O(n·log n) to build, O(n·(degree + 1)³) a call of apply for points on a surface. Leaves of 32 leave some 300 near pairs a point. Measured
 /// on a bumpy sphere, theta 0.7, kappa 0.125714, processor seconds (AVX-512; the threads share them evenly):
@@ -70,9 +58,10 @@ using PointFields = std::array<PotentialAndGradient, kKernels>;
 ///   memory, MB                           5        16       57
 class FarField {
  public:
-  /// \param points  finite coordinates, ångström; throws InvalidInput if one is not, or if there are 2³² or more.
+  /// \param points   finite coordinates, ångström; throws InvalidInput if one is not, or if there are 2³² or more.
+  /// \param reaches  ångström; a point and another that is not farther than its reach are near. One for each point, or none: all 0.
   /// Throws InvalidOption for an option out of its range.
-  FarField(const std::vector<Vec3>& points, const FarFieldOptions& options);
+  FarField(const std::vector<Vec3>& points, const FarFieldOptions& options, const std::vector<double>& reaches = {});
 
   /// Adds the far part at each point to `fields`. Both vectors are in the order of the points; throws InvalidInput if their sizes are not the
   /// number of points. Throws Cancelled when `progress` says so; `fields` is then part old, part new.
@@ -81,6 +70,8 @@ class FarField {
 
   /// Gives leaves and their points.
   [[nodiscard]] const ClusterTree& tree() const { return tree_; }
+  /// The points in the tree's order, a row each.
+  [[nodiscard]] const Eigen::MatrixX3d& points() const { return points_; }
   /// The leaves whose points are near those of `leaf`, ascending, itself among them. Symmetric.
   [[nodiscard]] std::span<const ClusterId> near_sources(ClusterId leaf) const { return lists_.near.of(leaf); }
   /// Ordered pairs of points that are left to the caller, a point with itself too.

@@ -10,7 +10,7 @@ using ClusterPairs = std::vector<std::pair<ClusterId, ClusterId>>;
 
 class Traversal {
  public:
-  Traversal(const ClusterTree& tree, double theta) : tree_(tree), theta_(theta) {}
+  Traversal(const ClusterTree& tree, double theta, const std::vector<double>& reaches) : tree_(tree), theta_(theta), reaches_(reaches) {}
 
   void visit_within(ClusterId cluster) {
     if (tree_[cluster].is_leaf()) {
@@ -29,7 +29,7 @@ class Traversal {
   [[nodiscard]] static ClusterId first_half(ClusterId cluster) { return cluster + 1; }
 
   void visit_between(ClusterId a, ClusterId b) {
-    if (are_well_separated(tree_[a], tree_[b])) {
+    if (are_well_separated(a, b)) {
       far.emplace_back(a, b);
     } else if (tree_[a].is_leaf() && tree_[b].is_leaf()) {
       near.emplace_back(a, b);
@@ -40,9 +40,12 @@ class Traversal {
     }
   }
 
-  [[nodiscard]] bool are_well_separated(const Cluster& a, const Cluster& b) const {
-    return a.radius + b.radius < theta_ * (a.center - b.center).norm();
+  [[nodiscard]] bool are_well_separated(ClusterId a, ClusterId b) const {
+    const double distance = (tree_[a].center - tree_[b].center).norm();
+    const double radii = tree_[a].radius + tree_[b].radius;
+    return radii < theta_ * distance && std::max(reach(a), reach(b)) < distance - radii;
   }
+  [[nodiscard]] double reach(ClusterId cluster) const { return reaches_.empty() ? 0 : reaches_[cluster]; }
   [[nodiscard]] bool is_halved_before(ClusterId a, ClusterId b) const {
     if (tree_[a].is_leaf() != tree_[b].is_leaf()) return tree_[b].is_leaf();
     return tree_[a].radius > tree_[b].radius;
@@ -50,6 +53,7 @@ class Traversal {
 
   const ClusterTree& tree_;
   double theta_;
+  const std::vector<double>& reaches_;
 };
 
 }  // namespace
@@ -70,11 +74,19 @@ ClusterLists::ClusterLists(std::size_t clusters, const ClusterPairs& pairs) : be
     std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(begins_[c]), entries_.begin() + static_cast<std::ptrdiff_t>(begins_[c + 1]));
 }
 
-InteractionLists interaction_lists(const ClusterTree& tree, double theta) {
-  Traversal traversal(tree, theta);
+InteractionLists interaction_lists(const ClusterTree& tree, double theta, const std::vector<double>& reaches) {
+  Traversal traversal(tree, theta, reaches);
   if (!tree.is_empty()) traversal.visit_within(0);
   const std::size_t clusters = tree.clusters().size();
   return {ClusterLists(clusters, traversal.far), ClusterLists(clusters, traversal.near)};
+}
+
+std::vector<double> largest_reaches(const ClusterTree& tree, const std::vector<double>& reaches) {
+  if (reaches.empty()) return {};
+  std::vector<double> largest(tree.clusters().size());
+  for (ClusterId c = 0; c < largest.size(); ++c)
+    for (const std::uint32_t p : tree.points_of(c)) largest[c] = std::max(largest[c], reaches[p]);
+  return largest;
 }
 
 }  // namespace smopt::metrics

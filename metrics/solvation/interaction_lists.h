@@ -30,13 +30,18 @@ class ClusterLists {
 /// Lists such that each ordered pair of points, a point with itself too, is in exactly one pair of clusters (target and source) of one of the two.
 /// Both are symmetric.
 struct InteractionLists {
-  ClusterLists far;   ///< well-separated clusters: (radius + radius) < theta · distance of the centres
+  ClusterLists far;  ///< well-separated clusters: (radius + radius) < theta · distance of the centres, and no point reaches into the other
   ClusterLists near;  ///< leaves that are not, each with itself too
 };
 
 /// Dual-tree traversal (Wilson, Vaughn & Krasny 2021, Comput. Phys. Commun. 265:108017, algorithm 2): of two clusters that are not well separated
-/// the larger is halved. \param theta  in (0, 1).
+/// the larger is halved.
+/// \param theta    in (0, 1).
+/// \param reaches  the largest reach of a cluster's points, ångström; one for each cluster, or none: all 0.
 /// Cost: O(n) for points on a surface, one thread.
-InteractionLists interaction_lists(const ClusterTree& tree, double theta);
+InteractionLists interaction_lists(const ClusterTree& tree, double theta, const std::vector<double>& reaches = {});
+
+/// The largest reach of each cluster's points. \param reaches  one for each point, or none, which gives none. Cost: O(n·log n).
+std::vector<double> largest_reaches(const ClusterTree& tree, const std::vector<double>& reaches);
 
 }  // namespace smopt::metrics

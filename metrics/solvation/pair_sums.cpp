@@ -74,15 +74,17 @@ template <SourceKind sources, TargetKind targets>
   }
 }
 
-template <SourceKind sources, TargetKind targets>
+template <SourceKind sources, TargetKind targets, bool has_reach>
 [[gnu::always_inline]] inline void add_to_lanes(const SourceView& s, double kappa, TargetLanes& result) {
   TargetLanes t = result;  // a copy that nothing else can point to stays in registers
   for (std::size_t j = 0; j < s.count; ++j) {
     for (std::size_t lane = 0; lane < kTargetLanes; ++lane) {
       const double rho[3] = {t.position[0][lane] - s.position[0][j], t.position[1][lane] - s.position[1][j],
                              t.position[2][lane] - s.position[2][j]};
-      const double r = std::sqrt(rho[0] * rho[0] + rho[1] * rho[1] + rho[2] * rho[2]);
-      const double g0 = 1 / r;
+      const double square = squared_distance(rho);
+      const double r = std::sqrt(square);
+      double g0 = 1 / r;
+      if constexpr (has_reach) g0 = square <= s.squared_reach[j] ? 0 : g0;
       const double inverse_square = g0 * g0;
       const double a0 = g0 * inverse_square;
       const double kr = kappa * r;
@@ -97,9 +99,9 @@ template <SourceKind sources, TargetKind targets>
   result = t;
 }
 
-template <SourceKind sources, TargetKind targets>
+template <SourceKind sources, TargetKind targets, bool has_reach = false>
 [[gnu::always_inline]] inline void add_to_all(const SourceView& s, double kappa, std::span<TargetLanes> t) {
-  for (TargetLanes& lanes : t) add_to_lanes<sources, targets>(s, kappa, lanes);
+  for (TargetLanes& lanes : t) add_to_lanes<sources, targets, has_reach>(s, kappa, lanes);
 }
 
 }  // namespace
@@ -110,6 +112,7 @@ void add_pair_sums(const SourceView& sources, double kappa, std::span<TargetLane
   using enum SourceKind;
   using enum TargetKind;
   const bool has_dipoles = source_kind == charges_and_dipoles;
+  if (sources.squared_reach != nullptr) return add_to_all<charges_and_dipoles, potentials_and_gradients, true>(sources, kappa, targets);
   if (target_kind == potentials) {
     if (has_dipoles) return add_to_all<charges_and_dipoles, potentials>(sources, kappa, targets);
     return add_to_all<charges, potentials>(sources, kappa, targets);

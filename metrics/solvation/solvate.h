@@ -16,11 +16,12 @@ struct SolvationOptions {
   DielectricModel medium;
   double surface_tension = 0.005;      ///< of the nonpolar part, kcal/mol/Å²; AFMPB's
   double pressure = 0.035;             ///< of the nonpolar part, kcal/mol/Å³; AFMPB's
-  double accuracy = 1e-4;              ///< of the sums over the surface: see `solvate`; [1e-10, 0.1]
-  bool is_direct = false;              ///< whether all pairs are summed one by one: O(n²), for reference
-  double residual = 1e-6;              ///< of the linear system, at which it counts as solved; (0, 1); AFMPB's
+  double accuracy = 3e-3;              ///< relative, of the integrals: see `surface_sums_for`; [1e-5, 0.1]
+  bool is_direct = false;              ///< whether what is not integrated is summed pair by pair: O(n²), for reference
+  double residual = 1e-6;              ///< of the linear system, relative, at which it counts as solved; (0, 1); AFMPB's
   int max_iterations = 100;            ///< of GMRES; at least 1; AFMPB's
-  int restart = 100;                   ///< GMRES keeps so many directions; at least 1
+  int restart = 100;                   ///< directions that GMRES keeps before it starts anew; at least 1
+  int block = 128;                     ///< vertices in a block of the preconditioner; 1: each by itself; at least 1
   std::uint64_t max_memory_bytes = 0;  ///< 0: what the machine has
   ProgressCallback progress = {};
 };
@@ -51,13 +52,19 @@ struct Solvation {
   [[nodiscard]] double total() const { return polar + nonpolar; }
 };
 
-/// Solvation energy of a molecule by the linearised Poisson–Boltzmann equation, AFMPB's job.
+/// Solvation energy of a molecule by the linearised Poisson–Boltzmann equation, AFMPB's job, and whether the surface is fit for it.
 ///
-/// \throws InvalidMesh for a surface that is not closed, edge-manifold and oriented, or has coordinates that are not finite; InvalidOption;
-/// InvalidInput when more memory would be needed than is allowed, with the estimate; Cancelled.
+/// The derivative boundary integral equations (Juffer et al. 1991) for the potential and its normal derivative at the vertices, both linear on each
+/// triangle; close pairs are integrated over the triangles, the others summed by a dual-tree traversal; GMRES with a block-diagonal preconditioner. The
+/// energy errs at second order in the edge length: three charges in a sphere of 10 242 vertices, 7e-4.
+/// A mesh of negative volume is turned round. Points in no triangle are left out. Vertices that have no normal do not keep the others from being solved.
+///
+/// All cores, the same bytes for any number of threads. Cost: O(n); TABLE
+/// \throws InvalidMesh for a surface that is open, has edges of more than two triangles, is not oriented, or has coordinates that are not finite;
+/// InvalidOption; InvalidInput when it would need more memory than is allowed, with the estimate; Cancelled.
 Solvation solvate(const TriangleMesh& surface, const Molecule& molecule, const SolvationOptions& options = {});
 
-/// Memory that `solvate` takes at its largest, in bytes.
-double solvation_bytes(std::size_t vertices, std::size_t charges, const SolvationOptions& options);
+/// Memory that `solvate` takes at its largest, bytes. \throws as `solvate` for the surface and the options. Cost: 0.1 s for 65 000 vertices.
+double predicted_solvation_bytes(const TriangleMesh& surface, const Molecule& molecule, const SolvationOptions& options = {});
 
 }  // namespace smopt::metrics

@@ -1,0 +1,186 @@
+#include "metrics/solvation/solvate.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "metrics/solvation/boundary_operator.h"
+#include "metrics/solvation/charge_sums.h"
+#include "metrics/solvation/charges_outside.h"
+#include "metrics/solvation/gmres.h"
+#include "metrics/solvation/memory_prediction.h"
+#include "metrics/solvation/solvable_surface.h"
+#include "smopt/error.h"
+#include "smopt/mesh/orientation.h"
+#include "smopt/physical_memory.h"
+#include "smopt/timing.h"
+
+namespace smopt::metrics {
+namespace {
+
+constexpr double kBytesPerMb = 1024.0 * 1024.0;
+
+/// GMRES goes by a residual that it carries along; what is recomputed may be larger by rounding.
+constexpr double kResidualSlack = 1.01;
+
+void require_valid(const SolvationOptions& options) {
+  const DielectricModel& medium = options.medium;
+  const auto require = [](bool is_valid, const char* what) {
+    if (!is_valid) throw InvalidOption(fmt::format("solvation: {}", what));
+  };
+  require(medium.inner > 0 && std::isfinite(medium.inner), "the inner permittivity must be positive and finite");
+  require(medium.outer > 0 && std::isfinite(medium.outer), "the outer permittivity must be positive and finite");
+  require(medium.ionic_strength >= 0 && std::isfinite(medium.ionic_strength), "the ionic strength must be at least 0 and finite");
+  require(medium.temperature > 0 && std::isfinite(medium.temperature), "the temperature must be positive and finite");
+  require(std::isfinite(options.surface_tension), "the surface tension must be finite");
+  require(std::isfinite(options.pressure), "the pressure must be finite");
+  require(options.residual > 0 && options.residual < 1, "the residual must be in (0, 1)");
+  require(options.max_iterations >= 1, "the number of iterations must be at least 1");
+  require(options.restart >= 1, "the restart must be at least 1");
+  require(options.block >= 1, "the block must be at least 1");
+}
+
+bool has_charges(const Molecule& molecule) {
+  return std::ranges::any_of(molecule.charges, [](double q) { return q != 0; });
+}
+
+/// The bar of a solve whose length nobody knows: each product brings it the same part of what is left nearer to its end.
+class SolveProgress {
+ public:
+  explicit SolveProgress(const ProgressCallback& progress) : progress_(progress) {}
+
+  /// For the next product with the matrix.
+  ProgressCallback next() {
+    const double before = fraction_of(products_++), after = fraction_of(products_);
+    return [this, before, after](std::string_view, double fraction) {
+      return !progress_ || progress_("solving", before + fraction * (after - before));
+    };
+  }
+
+ private:
+  [[nodiscard]] static double fraction_of(int products) {
+    constexpr double kUsual = 20;  // iterations on a molecule's improved mesh
+    return products / (products + kUsual);
+  }
+
+  const ProgressCallback& progress_;
+  int products_ = 0;
+};
+
+GmresResult solve(const BoundaryOperator& equations, Eigen::VectorXd right_side, const SolvationOptions& options) {
+  SolveProgress progress(options.progress);
+  LinearSystem system;
+  system.product = [&](const Eigen::VectorXd& x) { return equations.product(x, progress.next()); };
+  system.preconditioned = [&](const Eigen::VectorXd& r) { return equations.preconditioned(r); };
+  system.right_side = std::move(right_side);
+  return solve_by_gmres(system, {options.residual, options.max_iterations, options.restart});
+}
+
+void end_as(Solvation& result, SolvationStatus status, std::string reason) {
+  result.status = status;
+  result.reason = std::move(reason);
+  if (status == SolvationStatus::nonfinite) result.polar = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Where a vector of unknowns or equations has its first number that is not finite, as a vertex of the surface.
+VertexId first_nonfinite(const Eigen::VectorXd& vector, const SolvableSurface& surface) {
+  const auto n = static_cast<Eigen::Index>(surface.surface.size());
+  Eigen::Index i = 0;
+  while (std::isfinite(vector[i])) ++i;
+  return surface.vertices[static_cast<std::size_t>(i % n)];
+}
+
+void spread(const Eigen::VectorXd& unknowns, const SolvableSurface& surface, Solvation& result) {
+  const auto n = static_cast<Eigen::Index>(surface.surface.size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const VertexId v = surface.vertices[static_cast<std::size_t>(i)];
+    result.potential[v] = kPotentialUnit * unknowns[i];
+    result.normal_derivative[v] = kPotentialUnit * unknowns[n + i];
+  }
+}
+
+void solve_for_polar(const SolvableSurface& surface, const Molecule& molecule, const SolvationOptions& options, Solvation& result) {
+  const DielectricModel& medium = options.medium;
+  const SurfaceSums sums = surface_sums_for(options.accuracy, medium.kappa(), options.is_direct);
+  Eigen::VectorXd right_side = ChargeSums(surface.surface, molecule, medium, sums).right_side(options.progress);
+  if (!right_side.allFinite())
+    return end_as(
+        result, SolvationStatus::nonfinite,
+        fmt::format("the charges' potential is not finite at vertex {}: a charge lies on it", first_nonfinite(right_side, surface)));
+  Eigen::VectorXd unknowns;
+  {
+    const BoundaryOperator equations(surface.surface, {medium.kappa(), medium.ratio()}, sums, static_cast<std::size_t>(options.block),
+                                     options.progress);
+    GmresResult solved = solve(equations, std::move(right_side), options);
+    result.iterations = solved.iterations;
+    result.relative_residual = solved.relative_residual;
+    unknowns = std::move(solved.solution);
+  }
+  if (!std::isfinite(result.relative_residual))
+    return end_as(result, SolvationStatus::nonfinite, "a product with the matrix is not finite");
+  spread(unknowns, surface, result);
+  result.polar = ChargeSums(surface.surface, molecule, medium, sums).energy(unknowns, options.progress);
+  if (!std::isfinite(result.polar)) return end_as(result, SolvationStatus::nonfinite, "the energy is not finite");
+  if (result.relative_residual > kResidualSlack * options.residual)
+    end_as(result, SolvationStatus::not_converged,
+           fmt::format("the relative residual is {:.1e} after {} iterations, where {:.1e} was asked", result.relative_residual,
+                       result.iterations, options.residual));
+}
+
+double total_area(const TriangleMesh& mesh) {
+  double doubled = 0;
+  for (const Triangle& t : mesh.triangles)
+    doubled += (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm();
+  return doubled / 2;
+}
+
+void require_memory(double bytes, const SolvationOptions& options) {
+  const double most = static_cast<double>(options.max_memory_bytes == 0 ? physical_memory_bytes() : options.max_memory_bytes);
+  if (bytes > most)
+    throw InvalidInput(fmt::format("the solvation energy would need some {:.0f} MB of memory, more than the limit of {:.0f} MB",
+                                   bytes / kBytesPerMb, most / kBytesPerMb));
+}
+
+}  // namespace
+
+std::string to_string(SolvationStatus status) {
+  constexpr std::array<const char*, 4> kNames = {"success", "not_converged", "nonfinite", "no_charges"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+Solvation solvate(const TriangleMesh& mesh, const Molecule& molecule, const SolvationOptions& options) {
+  const Stopwatch watch;
+  require_valid(options);
+  const SolvableSurface surface(mesh);
+  Solvation result;
+  const double bytes = predicted_solvation_bytes(surface.surface, molecule, options);
+  require_memory(bytes, options);
+  result.predicted_memory_mb = bytes / kBytesPerMb;
+  result.area = total_area(surface.surface.mesh);
+  result.volume = signed_volume(surface.surface.mesh);
+  result.nonpolar = options.surface_tension * result.area + options.pressure * result.volume;
+  for (const VertexId v : degenerate_vertices(surface.surface.mesh, surface.surface.stars))
+    result.degenerate_vertices.push_back(surface.vertices[v]);
+  result.charges_outside = count_charges_outside(surface.surface.mesh, molecule);
+  const bool is_charged = has_charges(molecule);
+  const double nowhere = std::numeric_limits<double>::quiet_NaN();
+  result.potential.assign(mesh.vertex_count(), nowhere);
+  result.normal_derivative.assign(mesh.vertex_count(), nowhere);
+  if (is_charged) {
+    solve_for_polar(surface, molecule, options, result);
+  } else {
+    spread(Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(surface.surface.size())), surface, result);
+    end_as(result, SolvationStatus::no_charges, "all charges are 0");
+  }
+  result.seconds = watch.elapsed().wall;
+  return result;
+}
+
+double predicted_solvation_bytes(const TriangleMesh& mesh, const Molecule& molecule, const SolvationOptions& options) {
+  require_valid(options);
+  return predicted_solvation_bytes(SolvableSurface(mesh).surface, molecule, options);
+}
+
+}  // namespace smopt::metrics
