@@ -57,13 +57,6 @@ Json tetgen_json(const TriangleMesh& mesh, const std::string& switches, const Pr
   }
 }
 
-/// What is asked of the finished mesh, whichever case it is of.
-void add_simulations(Json& record, const TriangleMesh& mesh, const ProgressCallback& progress) {
-  record["tetgen"] = Json::object();
-  for (const char* switches : {"p", "pY"}) record["tetgen"][switches] = tetgen_json(mesh, switches, progress);
-  record["solvation"] = {{"status", "not computed"}};
-}
-
 void add_meshes(Json& record, const JudgedMesh& before, const JudgedMesh& after) {
   record["input"] = mesh_json(before);
   record["output"] = mesh_json(after);
@@ -85,13 +78,12 @@ JudgedMesh prepare_input(const TriangleMesh& initial) {
   return judge(std::move(mesh));
 }
 
-void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface, const ProgressCallback& progress) {
+void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface) {
   record["options"] = Json::object();
   record["threads"] = kTimedThreads;
   add_repeats(record, surface.repeats);
   record["peak_memory_mb"] = surface.peak_memory_mb;
   add_meshes(record, initial, initial);
-  add_simulations(record, initial.mesh, progress);
 }
 
 std::size_t vertices_after(const Method& method, const OptionValues& options, const TriangleMesh& initial,
@@ -117,8 +109,14 @@ TriangleMesh run_method_case(Json& record, const Method& method, const OptionVal
   add_outcome(record, run.preparation, run.report);
   JudgedMesh output = judge(std::move(run.mesh));
   add_meshes(record, input, output);
-  add_simulations(record, output.mesh, progress);
   return std::move(output.mesh);
+}
+
+void add_simulations(Json& record, const TriangleMesh& mesh, const Molecule& molecule, const SolvationPlan& solvation,
+                     const ProgressCallback& progress) {
+  record["tetgen"] = Json::object();
+  for (const char* switches : {"p", "pY"}) record["tetgen"][switches] = tetgen_json(mesh, switches, progress);
+  record["solvation"] = solvation_of(mesh, molecule, solvation, progress);
 }
 
 }  // namespace smopt::experiments

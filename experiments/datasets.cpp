@@ -43,6 +43,7 @@ Dataset parse_dataset(const Json& json) {
   dataset.path = json.at("source").at("path").get<std::string>();
   dataset.surface = parse_surface(json.at("surface"));
   dataset.is_quick = json.at("is_quick").get<bool>();
+  dataset.has_solvation = json.at("solvation").get<bool>();
   return dataset;
 }
 

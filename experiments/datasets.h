@@ -31,7 +31,8 @@ struct Dataset {
   std::string package;         ///< the Debian package that brings the file; empty for a file of the user's
   std::filesystem::path path;  ///< the molecule's file
   GaussianSurfaceOptions surface;
-  bool is_quick = false;  ///< small enough for `--quick`
+  bool is_quick = false;       ///< small enough for `--quick`
+  bool has_solvation = false;  ///< whether Table 1 shows its solvation energies: minutes for the largest, so each entry says so
 };
 
 /// The molecules of datasets.json, in its order.

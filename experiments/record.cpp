@@ -60,7 +60,7 @@ Json record_header(const Dataset& dataset, std::string_view method) {
 }
 
 void add_surface(Json& record, const GeneratedSurface& surface) {
-  record["molecule"]["atoms"] = surface.atoms;
+  record["molecule"]["atoms"] = surface.molecule.atom_count();
   record["molecule"]["sha256"] = surface.molecule_sha256;
   record["surface"]["report"] = {{"grid_nodes", surface.report.grid_nodes},
                                  {"surface_cells", surface.report.surface_cells},

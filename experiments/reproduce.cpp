@@ -29,6 +29,7 @@ RunSummary reproduce(const ReproduceOptions& options, const RunObserver& observe
   run.directory = options.directory;
   run.repeats = options.is_quick ? 1 : options.repeats;
   run.keeps_meshes = options.keeps_meshes;
+  run.solvation = {options.solvation_memory_bytes, options.is_quick};
   RunSummary summary = run_cases(run, baselines::all_methods(), observer);
   write_report(options.directory, observer.progress);
   return summary;

@@ -137,9 +137,13 @@ void keep_mesh(const RunOptions& options, const Dataset& dataset, std::string_vi
 void run_case(Json& record, const RunOptions& options, const MethodRegistry& registry, const Dataset& dataset, const std::string& method,
               SharedMeshes& meshes, const ProgressCallback& progress) {
   add_surface(record, meshes.surface());
+  const auto simulate = [&](const TriangleMesh& mesh) {
+    add_simulations(record, mesh, meshes.surface().molecule, solvation_plan(dataset, method, options.solvation), progress);
+  };
   if (method == kInitial) {
-    run_initial_case(record, meshes.initial(), meshes.surface(), progress);
+    run_initial_case(record, meshes.initial(), meshes.surface());
     keep_mesh(options, dataset, method, meshes.initial().mesh);
+    simulate(meshes.initial().mesh);
     return;
   }
   const JudgedMesh& input = meshes.input();
@@ -149,6 +153,7 @@ void run_case(Json& record, const RunOptions& options, const MethodRegistry& reg
                                                 meshes.surface().mesh, input, options.repeats, progress);
   meshes.remember_vertices_of(method, improved.vertex_count());
   keep_mesh(options, dataset, method, improved);
+  simulate(improved);
 }
 
 /// The record of one case, whatever becomes of it.
@@ -175,6 +180,14 @@ std::string pairs_text(const Json& record) {
   return pairs.is_null() ? "intersecting pairs not counted" : fmt::format("{} intersecting pairs", pairs.get<long>());
 }
 
+/// "; solvation -512.3 kcal/mol", or how it ended; nothing where it is not computed.
+std::string solvation_text(const Json& record) {
+  const std::string status = text_at(&record, "/solvation/status").value_or("not computed");
+  if (status == "not computed") return "";
+  const auto energy = number_at(&record, "/solvation/total_kcal_per_mol");
+  return status == "success" && energy ? fmt::format("; solvation {:.1f} kcal/mol", *energy) : fmt::format("; solvation {}", status);
+}
+
 std::string divergence_text(const Json& record) {
   const auto step = number_at(&record, "/diverged_at_step");
   return step ? fmt::format("; diverged at step {:.0f}", *step) : "";
@@ -186,10 +199,11 @@ std::string case_line(const Json& record, const Workload& work) {
   const std::string left = work.finished() == work.cases() ? "" : fmt::format("; about {:.0f} s left", work.seconds_left());
   const auto status = record.at("status").get<std::string>();
   if (status != "done") return fmt::format("{}: {}: {}{}", name, status, record.at("reason").get<std::string>(), left);
-  return fmt::format(
-      "{}: {} vertices, {}, TetGen p {}, pY {}; {:.2f} s CPU{}{}", name, record.at("output").at("vertices").get<long>(), pairs_text(record),
-      record.at("tetgen").at("p").at("status").get<std::string>(), record.at("tetgen").at("pY").at("status").get<std::string>(),
-      record.at("cpu_seconds").at(record.at("method") == kInitial ? "generate" : "total").get<double>(), divergence_text(record), left);
+  return fmt::format("{}: {} vertices, {}, TetGen p {}, pY {}{}; {:.2f} s CPU{}{}", name, record.at("output").at("vertices").get<long>(),
+                     pairs_text(record), record.at("tetgen").at("p").at("status").get<std::string>(),
+                     record.at("tetgen").at("pY").at("status").get<std::string>(), solvation_text(record),
+                     record.at("cpu_seconds").at(record.at("method") == kInitial ? "generate" : "total").get<double>(),
+                     divergence_text(record), left);
 }
 
 CaseOutcome outcome_of(const Json& record) {

@@ -9,6 +9,7 @@
 
 #include "experiments/datasets.h"
 #include "experiments/method_cases.h"
+#include "experiments/solvation_run.h"
 #include "smopt/improve/method.h"
 #include "smopt/progress.h"
 
@@ -21,6 +22,7 @@ struct RunOptions {
   std::filesystem::path directory;   ///< records go to `directory`/records/<molecule>/<method>.json
   int repeats = 1;                   ///< of everything that is timed; ≥ 1
   bool keeps_meshes = false;         ///< write `directory`/meshes/<molecule>/<method>.off
+  SolvationSettings solvation;
 };
 
 /// Who is told how a run goes.

@@ -21,13 +21,12 @@ void require_file(const Dataset& dataset) {
 
 StageTimes generate_once(const Dataset& dataset, GeneratedSurface& surface, const ProgressCallback& progress) {
   StageTimes times;
-  const Molecule molecule = timed(times, "read", [&] {
+  surface.molecule = timed(times, "read", [&] {
     Molecule read = read_molecule(dataset.path);
     raise_radii(read, GenerateRun().min_radius);  // as `smopt generate` does
     return read;
   });
-  surface.atoms = molecule.atom_count();
-  surface.mesh = timed(times, "generate", [&] { return gaussian_surface(molecule, dataset.surface, &surface.report, progress); });
+  surface.mesh = timed(times, "generate", [&] { return gaussian_surface(surface.molecule, dataset.surface, &surface.report, progress); });
   return times;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "experiments/datasets.h"
+#include "smopt/io/molecule.h"
 #include "smopt/mesh/triangle_mesh.h"
 #include "smopt/progress.h"
 #include "smopt/surface/gaussian_surface.h"
@@ -14,8 +14,8 @@ namespace smopt::experiments {
 
 /// A molecule's surface as it is generated.
 struct GeneratedSurface {
-  std::size_t atoms = 0;
-  std::string molecule_sha256;  ///< of the molecule's file
+  Molecule molecule;            ///< as meshed: small radii are raised
+  std::string molecule_sha256;  ///< of its file
   GaussianSurfaceReport report;
   TriangleMesh mesh;
   std::vector<StageTimes> repeats;  ///< "read" and "generate" of each

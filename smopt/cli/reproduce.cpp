@@ -74,6 +74,10 @@ void add_reproduce(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_flag("--quick", options->is_quick, "small molecules only, one repeat");
   command->add_flag("--keep-meshes", options->keeps_meshes, "write each case's mesh too");
+  command
+      ->add_option("--solvation-memory", options->solvation_memory_bytes,
+                   "memory that computing one solvation energy may take, such as 4GB; a case that needs more is a row that says so [12GB]")
+      ->transform(CLI::AsSizeValue(false));
   command->callback([options, &context] { run(*options, context); });
 }
 

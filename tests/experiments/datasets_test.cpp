@@ -24,7 +24,7 @@ std::vector<std::string> names_of(const std::vector<Dataset>& datasets) {
 }
 
 constexpr const char* kOne = R"({"molecules": [{"name": "n", "title": "T", "paper_row": null, "role": "stand-in", "about": "a",
-  "source": {"package": "p", "path": "/f.pqr"}, "surface": {"decay_per_A2": 0.5, "isovalue": 2, "spacing_A": 0.7}, "is_quick": true}]})";
+  "source": {"package": "p", "path": "/f.pqr"}, "surface": {"decay_per_A2": 0.5, "isovalue": 2, "spacing_A": 0.7}, "is_quick": true, "solvation": true}]})";
 
 std::string one_with(const std::string& from, const std::string& to) {
   std::string text = kOne;
@@ -52,6 +52,12 @@ TEST(Datasets, AreMeshedAsTheProgramDoesByDefault) {
   }
 }
 
+TEST(Datasets, NameWhoseSolvationEnergiesTable1Shows) {
+  std::vector<Dataset> solved = all_datasets();
+  std::erase_if(solved, [](const Dataset& dataset) { return !dataset.has_solvation; });
+  EXPECT_THAT(names_of(solved), ElementsAre("ache-monomer", "fas2"));
+}
+
 TEST(Datasets, ReadEveryField) {
   const std::vector<Dataset> datasets = parse_datasets(kOne);
   ASSERT_EQ(datasets.size(), 1U);
@@ -66,6 +72,7 @@ TEST(Datasets, ReadEveryField) {
   EXPECT_EQ(d.surface.isovalue, 2);
   EXPECT_EQ(d.surface.spacing, 0.7);
   EXPECT_TRUE(d.is_quick);
+  EXPECT_TRUE(d.has_solvation);
 }
 
 TEST(Datasets, SayWhichEntryIsWrong) {

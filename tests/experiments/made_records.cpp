@@ -49,7 +49,7 @@ Json made_record(const experiments::Dataset& dataset, const std::string& method)
   record["options"] = {{"rounds", 100}};
   record["metrics"] = {{"before", made_metrics(500, 1000, 300.5, 900.25)}, {"after", made_metrics(400, 800, 290, 880)}};
   record["tetgen"] = {{"p", {{"status", "failed"}, {"reason", "too sharp"}}}, {"pY", {{"status", "success"}, {"reason", nullptr}}}};
-  record["solvation"] = {{"status", "not computed"}};
+  record["solvation"] = {{"status", "not computed"}, {"reason", "not asked for"}};
   set_cpu_seconds(record, {{}});
   experiments::mark_done(record);
   return record;
@@ -59,6 +59,16 @@ Json failed_record(const experiments::Dataset& dataset, const std::string& metho
   Json record = experiments::record_header(dataset, method);
   experiments::mark_failed(record, reason);
   return record;
+}
+
+void set_solvation(Json& record, double total, int iterations, int degenerate_vertices) {
+  record["solvation"] = {{"status", "success"},
+                         {"reason", nullptr},
+                         {"polar_kcal_per_mol", total - 300},
+                         {"nonpolar_kcal_per_mol", 300},
+                         {"total_kcal_per_mol", total},
+                         {"iterations", iterations},
+                         {"degenerate_vertices", degenerate_vertices}};
 }
 
 void set_cpu_seconds(Json& record, const std::vector<CpuSeconds>& repeats) {

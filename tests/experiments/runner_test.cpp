@@ -77,6 +77,59 @@ TEST(Runner, RunsEveryCaseOfAMoleculeAndRecordsIt) {
   }
 }
 
+/// The record's solvation of a run of `method` on four atoms.
+Json solvation_after(const std::string& method, bool has_solvation, const SolvationSettings& settings) {
+  const TemporaryFolder folder;
+  Dataset dataset = tiny(folder);
+  dataset.has_solvation = has_solvation;
+  RunOptions options = options_for(folder, {dataset}, {method});
+  options.solvation = settings;
+  run_cases(options, baselines::all_methods());
+  return record_of(options, "tiny", method).at("solvation");
+}
+
+TEST(Runner, ComputesTheSolvationEnergiesThatTable1Shows) {
+  for (const std::string method : {"initial", "smopt"}) {
+    const Json solvation = solvation_after(method, true, {});
+    EXPECT_EQ(solvation.at("status"), "success") << method;
+    EXPECT_LT(solvation.at("polar_kcal_per_mol").get<double>(), 0) << method;
+    EXPECT_GT(solvation.at("nonpolar_kcal_per_mol").get<double>(), 0) << method;
+    EXPECT_EQ(solvation.at("options").at("outer_permittivity"), 80) << method;
+  }
+  EXPECT_EQ(solvation_after("laplacian", true, {}), Json({{"status", "not computed"}, {"reason", "only for Table 1"}}));
+  EXPECT_EQ(solvation_after("smopt", false, {}), Json({{"status", "not computed"}, {"reason", "not for this molecule"}}));
+}
+
+TEST(Runner, AQuickRunSolvesForQuickMoleculesOnly) {
+  SolvationSettings quick;
+  quick.is_quick = true;
+  EXPECT_EQ(solvation_after("initial", true, quick).at("reason"), "not in a quick run");
+  Dataset dataset;
+  dataset.has_solvation = dataset.is_quick = true;
+  EXPECT_EQ(solvation_plan(dataset, "initial", quick).why_not, "");
+}
+
+TEST(Runner, ASolveThatNeedsTooMuchMemoryIsARowWithTheEstimate) {
+  SolvationSettings little;
+  little.max_memory_bytes = 1000;
+  const Json solvation = solvation_after("initial", true, little);
+  EXPECT_EQ(solvation.at("status"), "over limit");
+  EXPECT_THAT(solvation.at("reason").get<std::string>(), ::testing::MatchesRegex("needs [1-9][0-9]* MB"));
+}
+
+TEST(Runner, ASolveThatFailsIsARowWithItsReason) {
+  const TemporaryFolder folder;
+  Dataset dataset = tiny(folder);
+  dataset.has_solvation = true;
+  MethodRegistry registry;
+  registry.add(method_that("smopt", [](TriangleMesh& mesh) { mesh.triangles.resize(mesh.triangles.size() / 2); }));
+  const RunOptions options = options_for(folder, {dataset}, {"smopt"});
+  EXPECT_EQ(run_cases(options, registry).count(CaseStatus::failed), 0U);
+  const Json solvation = record_of(options, "tiny", "smopt").at("solvation");
+  EXPECT_EQ(solvation.at("status"), "failed");
+  EXPECT_FALSE(solvation.at("reason").get<std::string>().empty());
+}
+
 TEST(Runner, RecordsEveryOptionWithItsDefault) {
   const TemporaryFolder folder;
   const RunOptions options = options_for(folder, {tiny(folder)}, {"smopt"});
@@ -217,12 +270,14 @@ Json without_times(Json record) {
   for (const char* key : {"repeats", "seconds", "cpu_seconds", "peak_memory_mb"}) record.erase(key);
   for (const char* switches : {"p", "pY"})
     for (const char* key : {"seconds", "peak_memory_mb"}) record["tetgen"][switches].erase(key);
+  record["solvation"].erase("seconds");
   return record;
 }
 
 TEST(Runner, TheSameRunGivesTheSameRecordsButForTimesAndMemory) {
   const TemporaryFolder folder;
-  const Dataset dataset = tiny(folder);
+  Dataset dataset = tiny(folder);
+  dataset.has_solvation = true;
   RunOptions first = options_for(folder, {dataset}, {"initial", "smopt", "laplacian"});
   RunOptions second = first;
   second.directory = folder.path() / "again";
@@ -285,6 +340,7 @@ TEST(Reproduce, GivesRecordsTablesAndFiguresOfASmallMolecule) {
   const RecordSet records = RecordSet::load(folder.path());
   EXPECT_EQ(number_at(records.find("fas2", "smopt"), "/metrics/after/intersecting_pairs"), 0);
   EXPECT_EQ(number_at(records.find("fas2", "smopt"), "/metrics/after/components"), 1);
+  EXPECT_EQ(text_at(records.find("fas2", "smopt"), "/solvation/status"), "success");
 }
 
 TEST(Reproduce, RefusesAnUnknownMolecule) {

@@ -18,6 +18,7 @@ using smopt::testing::failed_record;
 using smopt::testing::made_dataset;
 using smopt::testing::made_record;
 using smopt::testing::set_cpu_seconds;
+using smopt::testing::set_solvation;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -150,12 +151,43 @@ TEST(Tables, AMissingMetricIsADash) {
   EXPECT_EQ(cell(table3(records), kAche, "vertices_smopt"), "400");
 }
 
-TEST(Table1, TellsWhyTetgenFailedAndThatSolvationIsNotYetComputed) {
+TEST(Table1, TellsWhyTetgenFailed) {
   const RecordSet records = records_of(three_methods(ache_monomer()));
   EXPECT_EQ(cell(table1(records), kAche, "tetgen_p_improved"), "Failed: too sharp");
   EXPECT_EQ(cell(table1(records), kAche, "tetgen_pY_improved"), "Success");
   EXPECT_EQ(cell(table1(records), kAche, "paper_tetgen_initial"), "Failed");
-  EXPECT_EQ(cell(table1(records), kAche, "afmpb_improved_kcal_per_mol"), "not yet computed");
+}
+
+TEST(Table1, ShowsWhatTheSolverFoundOrWhyItFoundNothing) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  set_solvation(list[1], -2509.17, 12, 3);
+  const Table table = table1(records_of(list));
+  EXPECT_EQ(cell(table, kAche, "afmpb_initial_kcal_per_mol"), "not computed: not asked for");
+  EXPECT_EQ(cell(table, kAche, "afmpb_improved_kcal_per_mol"), "-2509.2");
+  EXPECT_EQ(cell(table, kAche, "solver_iterations_initial"), kDash);
+  EXPECT_EQ(cell(table, kAche, "solver_iterations_improved"), "12");
+  EXPECT_EQ(cell(table, kAche, "degenerate_vertices_improved"), "3");
+  EXPECT_THAT(table.notes, Contains("AChE monomer, improved: polar -2809.2, nonpolar 300.0 kcal/mol."));
+}
+
+TEST(Table1, ShowsNoEnergyOfASolutionThatDidNotConverge) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  set_solvation(list[0], -2509.17, 100, 0);
+  list[0]["solvation"]["status"] = "not_converged";
+  list[0]["solvation"]["reason"] = "residual 0.1 after 100 iterations";
+  list[1]["solvation"] = {{"status", "over limit"}, {"reason", "needs 13000 MB"}};
+  const Table table = table1(records_of(list));
+  EXPECT_EQ(cell(table, kAche, "afmpb_initial_kcal_per_mol"), "not_converged: residual 0.1 after 100 iterations");
+  EXPECT_EQ(cell(table, kAche, "solver_iterations_initial"), "100");
+  EXPECT_EQ(cell(table, kAche, "afmpb_improved_kcal_per_mol"), "over limit: needs 13000 MB");
+  EXPECT_THAT(table.notes, Contains(HasSubstr("converges on none of the initial meshes")));
+}
+
+TEST(Table1, SaysWhereTheSolverTakesTheInitialMeshToo) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  EXPECT_THAT(table1(records_of(list)).notes, Contains(HasSubstr("was run on none of the initial meshes")));
+  set_solvation(list[0], -2500, 20, 7);
+  EXPECT_THAT(table1(records_of(list)).notes, Contains(AllOf(HasSubstr("converges on the initial mesh too"), HasSubstr("AChE monomer"))));
 }
 
 TEST(Table1, SaysWhereTetgenTakesTheInitialMeshToo) {
