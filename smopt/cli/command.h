@@ -8,7 +8,7 @@ namespace smopt::cli {
 /// What a command came to; the number is the program's exit code.
 enum class ExitCode {
   done = 0,
-  answer_is_no = 1,  ///< done, and the answer is no: TetGen failed, new pairs were found
+  answer_is_no = 1,  ///< done, and the answer is no: TetGen failed, a solve did not succeed, new pairs were found
   wrong_usage = 2,
   bad_input = 3,  ///< file, line or element named; nothing written
   internal_error = 4,
@@ -36,6 +36,7 @@ void add_improve(CLI::App& app, Context& context);
 void add_methods(CLI::App& app, Context& context);
 void add_measure(CLI::App& app, Context& context);
 void add_tetrahedralize(CLI::App& app, Context& context);
+void add_solvate(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);

@@ -22,7 +22,8 @@ constexpr const char* kDescription =
     "  smopt generate molecule.pqr -o surface.off      the molecule's Gaussian surface\n"
     "  smopt improve surface.off -o improved.off       the same surface, fit for simulation\n"
     "  smopt measure surface.off improved.off          what has become better\n"
-    "  smopt tetrahedralize improved.off -o mesh.vtu   a volume mesh by TetGen";
+    "  smopt tetrahedralize improved.off -o mesh.vtu   a volume mesh by TetGen\n"
+    "  smopt solvate improved.off molecule.pqr         the molecule's solvation energy";
 
 int report_error(const char* what, ExitCode code) {
   fmt::print(stderr, "smopt: {}\n", what);
@@ -35,6 +36,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_methods(app, context);
   add_measure(app, context);
   add_tetrahedralize(app, context);
+  add_solvate(app, context);
   add_convert(app, context);
   add_reproduce(app, context);
   add_report(app, context);

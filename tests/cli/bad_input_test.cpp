@@ -37,6 +37,7 @@ const std::vector<Command> kMeshCommands = {
     {"measure_json", {"measure", "in", "--json"}, ""},
     {"convert", {"convert", "in", "out"}, "out.ply"},
     {"tetrahedralize", {"tetrahedralize", "in", "-o", "out"}, "out.vtu"},
+    {"solvate", {"solvate", "in", "not_reached.pqr", "-o", "out"}, "out.vtp"},
 };
 const std::vector<Command> kMoleculeCommands = {{"generate", {"generate", "in", "-o", "out"}, "out.off"}};
 

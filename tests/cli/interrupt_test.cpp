@@ -54,6 +54,22 @@ TEST_P(Interrupt, StopsGuardedSmoothingAndKeepsTheOldFile) {
   EXPECT_THAT(files_in(folder), ElementsAre("in.off", "out.off"));
 }
 
+TEST_P(Interrupt, StopsASolverWithoutAFile) {
+  const TemporaryFolder folder;
+  const std::string mesh = put_mesh(folder, "in.off", icosphere(5, 2));
+  const std::string ion = folder.file("in.pqr", "ATOM 1 NA NA 1 0.0 0.0 0.5 1.0 2.0\n").string();
+  // All pairs one by one, and more digits than doubles have.
+  RunningProgram program(smopt_program(), {"solvate", mesh, ion, "-o", path_in(folder, "out.vtp"), "--direct", "--residual", "1e-30",
+                                           "--max-iterations", "1000000"});
+  let_it_work(program, 1.0);
+  ASSERT_TRUE(program.is_running());
+  program.send(GetParam());
+  const ProgramResult r = program.wait(kSoon);
+  EXPECT_FALSE(r.is_out_of_time);
+  EXPECT_EQ(r.exit_code, kInterrupted) << r.err;
+  EXPECT_THAT(files_in(folder), ElementsAre("in.off", "in.pqr"));
+}
+
 TEST_P(Interrupt, StopsEveryCommandThatWaitsForItsInput) {
   const TemporaryFolder folder;
   const std::string output = path_in(folder, "out.off");
@@ -61,7 +77,8 @@ TEST_P(Interrupt, StopsEveryCommandThatWaitsForItsInput) {
                                                           {"measure", "-"},
                                                           {"convert", "-", output},
                                                           {"generate", "-", "-o", output},
-                                                          {"tetrahedralize", "-", "-o", path_in(folder, "out.vtu")}};
+                                                          {"tetrahedralize", "-", "-o", path_in(folder, "out.vtu")},
+                                                          {"solvate", "-", "no.pqr", "-o", path_in(folder, "out.vtp")}};
   for (const auto& command : commands) {
     RunningProgram program(smopt_program(), command, {}, RunningProgram::Input::open_pipe);
     std::this_thread::sleep_for(std::chrono::milliseconds(150));  // to where it reads; sooner, the test is easier and not wrong

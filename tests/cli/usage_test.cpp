@@ -26,7 +26,7 @@ std::vector<std::string> listed_commands() {
 
 TEST(Usage, HelpListsTheCommands) {
   const std::vector<std::string> commands = listed_commands();
-  for (const char* command : {"generate", "improve", "methods", "measure", "tetrahedralize", "convert"})
+  for (const char* command : {"generate", "improve", "methods", "measure", "tetrahedralize", "solvate", "convert"})
     EXPECT_THAT(commands, Contains(command));
 }
 
