@@ -15,6 +15,7 @@ void register_smoothing(const Sizes& sizes);  ///< the floor, and smoothing with
 void register_baselines(const Sizes& sizes);  ///< the other methods
 void register_stages(const Sizes& sizes);     ///< validity, cavities, redundant points
 void register_files(const Sizes& sizes);      ///< OFF text
+void register_solvation(const Sizes& sizes);  ///< the Poisson–Boltzmann solver, at spacings of its own: `solvation/threads:2/spacing_mA:<n>`
 /// The whole of it, within this process and as the program of this path.
 void register_improvement(const Sizes& sizes, const std::string& program);
 

@@ -40,6 +40,7 @@ void register_all(const smopt::bench::Sizes& sizes) {
   smopt::bench::register_baselines(sizes);
   smopt::bench::register_stages(sizes);
   smopt::bench::register_files(sizes);
+  smopt::bench::register_solvation(sizes);
   smopt::bench::register_improvement(sizes, SMOPT_PROGRAM);
 }
 

@@ -16,7 +16,7 @@ struct SolvationOptions {
   DielectricModel medium;
   double surface_tension = 0.005;      ///< of the nonpolar part, kcal/mol/Å²; AFMPB's
   double pressure = 0.035;             ///< of the nonpolar part, kcal/mol/Å³; AFMPB's
-  double accuracy = 3e-3;              ///< relative, of the integrals: see `surface_sums_for`; [1e-5, 0.1]
+  double accuracy = 3e-3;              ///< relative, of the integrals: see `surface_sums_for`; [1e-4, 0.1]
   bool is_direct = false;              ///< whether what is not integrated is summed pair by pair: O(n²), for reference
   double residual = 1e-6;              ///< of the linear system, relative, at which it counts as solved; (0, 1); AFMPB's
   int max_iterations = 100;            ///< of GMRES; at least 1; AFMPB's

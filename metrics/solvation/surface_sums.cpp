@@ -1,5 +1,7 @@
 #include "metrics/solvation/surface_sums.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "smopt/error.h"
@@ -7,8 +9,8 @@
 namespace smopt::metrics {
 namespace {
 
-/// reach³ · accuracy, measured: see the header.
-constexpr double kReachCubedByError = 0.08;
+/// reach³ · accuracy: the least with which what was measured stays below what is asked.
+constexpr double kReachCubedByError = 0.1;
 
 /// No cluster is far from another one at this.
 constexpr double kNeverFar = 1e-300;
@@ -18,7 +20,8 @@ constexpr int kDirectLeafSize = 256;
 }  // namespace
 
 SurfaceSums surface_sums_for(double accuracy, double kappa, bool is_direct) {
-  if (!(accuracy >= 1e-5 && accuracy <= 0.1)) throw InvalidOption("solvation: accuracy must be in [1e-5, 0.1]");
+  if (!(accuracy >= kBestAccuracy && accuracy <= kWorstAccuracy))
+    throw InvalidOption(fmt::format("solvation: accuracy must be in [{}, {}]", kBestAccuracy, kWorstAccuracy));
   SurfaceSums sums;
   sums.far = options_for(accuracy, kappa);
   if (is_direct) {

@@ -390,7 +390,7 @@ TEST(Solvate, RefusesOptionsOutOfTheirRange) {
   refuses([](SolvationOptions& o) { o.medium.ionic_strength = -1; });
   refuses([](SolvationOptions& o) { o.medium.temperature = 0; });
   refuses([](SolvationOptions& o) { o.accuracy = 0.5; });
-  refuses([](SolvationOptions& o) { o.accuracy = 1e-6; });
+  refuses([](SolvationOptions& o) { o.accuracy = 0.9e-4; });
   refuses([](SolvationOptions& o) { o.residual = 0; });
   refuses([](SolvationOptions& o) { o.max_iterations = 0; });
   refuses([](SolvationOptions& o) { o.restart = 0; });
