@@ -97,7 +97,7 @@ Eigen::VectorXd BoundaryOperator::product(const Eigen::VectorXd& unknowns, const
   std::vector<PointFields> fields(count);
   set_sources(surface_, epsilon, unknowns, sources);
   far_.apply(sources, fields, progress);
-  near_.apply(sources, fields);
+  near_.apply(sources, fields, progress);
   Eigen::VectorXd result(2 * n);
   for_ranges_in_parallel(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {

@@ -43,7 +43,7 @@ Eigen::VectorXd ChargeSums::right_side(const ProgressCallback& progress) const {
   std::vector<PointFields> fields(points_.size());
   for (std::size_t k = 0; k < charges_.size(); ++k) sources[vertices + k][kPlain].charge = charges_[k] / medium_.inner;
   far_.apply(sources, fields, progress);
-  near_.apply(sources, fields);
+  near_.apply(sources, fields, progress);
   for (const ClusterId leaf : near_.leaves())
     near_.visit_close_pairs(leaf, [&](std::uint32_t target, std::uint32_t source) {
       if (target < vertices && source >= vertices) fields[target][kPlain].potential = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ double ChargeSums::energy(const Eigen::VectorXd& unknowns, const ProgressCallbac
   std::vector<PointFields> fields(points_.size());
   set_sources(surface_, medium_.ratio(), unknowns, sources);
   far_.apply(sources, fields, progress);
-  near_.apply(sources, fields);
+  near_.apply(sources, fields, progress);
   const CloseMatrix close(
       near_, surface_, vertices, charges_.size(),
       [&](std::size_t k) {

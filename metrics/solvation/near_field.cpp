@@ -1,6 +1,6 @@
 #include "metrics/solvation/near_field.h"
 
-#include <oneapi/tbb/parallel_for.h>
+#include "metrics/solvation/batches.h"
 
 namespace smopt::metrics {
 
@@ -10,10 +10,10 @@ NearField::NearField(const FarField& far, double kappa, const std::vector<double
   for (const std::uint32_t p : far.tree().order()) squared_reaches_.push_back(reaches[p] * reaches[p]);
 }
 
-void NearField::apply(const std::vector<PointSources>& sources, std::vector<PointFields>& fields) const {
+void NearField::apply(const std::vector<PointSources>& sources, std::vector<PointFields>& fields, const ProgressCallback& progress) const {
   const ClusterTree& tree = far_.tree();
   const TreeSources ordered(tree, sources);
-  tbb::parallel_for(std::size_t{0}, leaves_.size(), [&](std::size_t i) {
+  in_batches(leaves_.size(), progress, "near field", [&](std::size_t i) {
     const ClusterId leaf = leaves_[i];
     auto lanes = lanes_of(tree[leaf], far_.points());
     for (const ClusterId source : far_.near_sources(leaf)) {

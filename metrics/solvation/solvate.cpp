@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -46,33 +47,28 @@ bool has_charges(const Molecule& molecule) {
   return std::ranges::any_of(molecule.charges, [](double q) { return q != 0; });
 }
 
-/// The bar of a solve whose length nobody knows: each product brings it the same part of what is left nearer to its end.
-class SolveProgress {
- public:
-  explicit SolveProgress(const ProgressCallback& progress) : progress_(progress) {}
+/// One stage for what reports several, of which each starts anew: the bar does not go back.
+ProgressCallback as_stage(const ProgressCallback& progress, std::string name, double begin = 0, double end = 1) {
+  if (!progress) return {};
+  return [&progress, name = std::move(name), begin, end, furthest = 0.0](std::string_view, double fraction) mutable {
+    furthest = std::max(furthest, fraction);
+    return progress(name, begin + furthest * (end - begin));
+  };
+}
 
-  /// For the next product with the matrix.
-  ProgressCallback next() {
-    const double before = fraction_of(products_++), after = fraction_of(products_);
-    return [this, before, after](std::string_view, double fraction) {
-      return !progress_ || progress_("solving", before + fraction * (after - before));
-    };
-  }
-
- private:
-  [[nodiscard]] static double fraction_of(int products) {
-    constexpr double kUsual = 20;  // iterations on a molecule's improved mesh
-    return products / (products + kUsual);
-  }
-
-  const ProgressCallback& progress_;
-  int products_ = 0;
-};
+/// How far a solve is whose length nobody knows: each product with the matrix brings it the same part of what is left nearer to its end.
+double part_solved_after(int products) {
+  constexpr double kUsual = 20;  // iterations on a molecule's improved mesh
+  return products / (products + kUsual);
+}
 
 GmresResult solve(const BoundaryOperator& equations, Eigen::VectorXd right_side, const SolvationOptions& options) {
-  SolveProgress progress(options.progress);
+  int products = 0;
   LinearSystem system;
-  system.product = [&](const Eigen::VectorXd& x) { return equations.product(x, progress.next()); };
+  system.product = [&](const Eigen::VectorXd& x) {
+    const double before = part_solved_after(products++);
+    return equations.product(x, as_stage(options.progress, "solving", before, part_solved_after(products)));
+  };
   system.preconditioned = [&](const Eigen::VectorXd& r) { return equations.preconditioned(r); };
   system.right_side = std::move(right_side);
   return solve_by_gmres(system, {options.residual, options.max_iterations, options.restart});
@@ -104,7 +100,7 @@ void spread(const Eigen::VectorXd& unknowns, const SolvableSurface& surface, Sol
 void solve_for_polar(const SolvableSurface& surface, const Molecule& molecule, const SolvationOptions& options, Solvation& result) {
   const DielectricModel& medium = options.medium;
   const SurfaceSums sums = surface_sums_for(options.accuracy, medium.kappa(), options.is_direct);
-  Eigen::VectorXd right_side = ChargeSums(surface.surface, molecule, medium, sums).right_side(options.progress);
+  Eigen::VectorXd right_side = ChargeSums(surface.surface, molecule, medium, sums).right_side(as_stage(options.progress, "charges"));
   if (!right_side.allFinite())
     return end_as(
         result, SolvationStatus::nonfinite,
@@ -121,7 +117,7 @@ void solve_for_polar(const SolvableSurface& surface, const Molecule& molecule, c
   if (!std::isfinite(result.relative_residual))
     return end_as(result, SolvationStatus::nonfinite, "a product with the matrix is not finite");
   spread(unknowns, surface, result);
-  result.polar = ChargeSums(surface.surface, molecule, medium, sums).energy(unknowns, options.progress);
+  result.polar = ChargeSums(surface.surface, molecule, medium, sums).energy(unknowns, as_stage(options.progress, "energy"));
   if (!std::isfinite(result.polar)) return end_as(result, SolvationStatus::nonfinite, "the energy is not finite");
   if (result.relative_residual > kResidualSlack * options.residual)
     end_as(result, SolvationStatus::not_converged,
