@@ -100,8 +100,9 @@ std::vector<std::string> energy_parts(const RecordSet& records) {
 const char* solver_note() {
   return "AFMPB stands for this project's boundary-element solver of the linearised Poisson–Boltzmann equation, in AFMPB's formulation and "
          "with its defaults; energies are polar + nonpolar (0.005 · area + 0.035 · volume). The paper does not say which its column is: "
-         "connexin's is positive, which a polar solvation energy cannot be, so most likely the sum. Degenerate vertices are those whose "
-         "normal AFMPB could not form, so that its answer would be NaN.";
+         "connexin's is positive, as a sum can be and a polar energy cannot; the AChE monomer's is near the polar energy below and far "
+         "from the "
+         "sum. Degenerate vertices are those whose normal AFMPB could not form, so that its answer would be NaN.";
 }
 
 /// The paper's "Failed" is compared, never staged: where TetGen takes the initial mesh too, that is said.
