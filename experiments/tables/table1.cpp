@@ -15,6 +15,7 @@ using Json = RecordSet::Json;
 constexpr int kNumber = 1;
 constexpr const char* kSolved = "success";
 constexpr const char* kDegenerate = "/solvation/degenerate_vertices";
+constexpr const char* kOutside = "/solvation/charges_outside";
 
 MoleculeColumn size_column(std::string id, std::string title, std::string method, std::string pointer) {
   return {{std::move(id), std::move(title)},
@@ -137,6 +138,8 @@ Table table1(const RecordSet& records) {
                       paper_column(kNumber, "afmpb_improved_kcal_per_mol", "paper"),
                       count_column("solver_iterations_initial", "Solver's iterations, initial", "initial", "/solvation/iterations"),
                       count_column("solver_iterations_improved", "Solver's iterations, improved", "smopt", "/solvation/iterations"),
+                      count_column("charges_outside_initial", "Charges outside, initial", "initial", kOutside),
+                      count_column("charges_outside_improved", "Charges outside, improved", "smopt", kOutside),
                       count_column("degenerate_vertices_initial", "Degenerate vertices, initial", "initial", kDegenerate),
                       count_column("degenerate_vertices_improved", "Degenerate vertices, improved", "smopt", kDegenerate),
                       tetgen_column("tetgen_p_initial", "TetGen -p, initial", "initial", "p"),

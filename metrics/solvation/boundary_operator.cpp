@@ -50,7 +50,8 @@ std::vector<double> BoundaryOperator::jumps() const {
   std::vector<double> jumps;
   jumps.reserve(surface_.size());
   for (std::size_t v = 0; v < surface_.size(); ++v) {
-    const double inside = -(fields[v][kPlain].potential + close_.double_layer(v));
+    double inside = -fields[v][kPlain].potential;
+    for (const KernelValues& values : close_[v].values) inside -= values.double_layer;
     jumps.push_back(inside + parameters_.ratio * (1 - inside));
   }
   return jumps;
@@ -71,9 +72,8 @@ Eigen::MatrixXd BoundaryOperator::block_of(std::span<const VertexId> vertices) c
       if (at != row.sources.end() && *at == source) {
         k = row.values[static_cast<std::size_t>(at - row.sources.begin())];
       } else {
-        k = kernel_sample(surface_.mesh.points[target] - surface_.mesh.points[source], patch.normal, surface_.patches[source].area_vector,
-                          parameters_)
-                .values;
+        k = kernel_values(surface_.mesh.points[target] - surface_.mesh.points[source], patch.normal, surface_.patches[source].area_vector,
+                          parameters_);
         k.k1 *= surface_.patches[source].area;
         k.k3 *= surface_.patches[source].area;
       }

@@ -27,7 +27,7 @@ void set_sources(const DiscreteSurface& surface, double ratio, const Eigen::Vect
 ///
 /// with c the interior solid angle at x as a part of 4π: ½ where the surface is smooth, but x is a corner of a polyhedron. c is minus the sum that stands
 /// for ∫ ∂G0/∂ν, so that a constant φ meets no error of quadrature, which ε would multiply.
-/// A vertex without a normal has no second equation; its ψ, which acts on nothing, is 0.
+/// A vertex without a normal has no second equation; its ψ is set to 0.
 class BoundaryOperator {
  public:
   /// \param block  vertices in a block of the preconditioner.

@@ -1,5 +1,6 @@
 #include "metrics/solvation/charge_sums.h"
 
+#include <cmath>
 #include <limits>
 
 namespace smopt::metrics {
@@ -25,11 +26,19 @@ std::vector<double> reaches_for(const DiscreteSurface& surface, double reach, st
   return reaches;
 }
 
+/// ∫ ∂G0/∂ν over a closed surface is -1 for a point inside and 0 for one outside, which sums over points miss by the square of edge length by distance.
+/// What they miss, for the mean potential that they see. \param of_one  the sum; \param of_potential  the same with φ.
+double missing_double_layer(double of_one, double of_potential) {
+  const double exact = std::round(of_one);
+  return exact == 0 ? 0 : (exact / of_one - 1) * of_potential;
+}
+
 }  // namespace
 
 ChargeSums::ChargeSums(const DiscreteSurface& surface, const Molecule& molecule, const DielectricModel& medium, const SurfaceSums& sums)
     : surface_(surface),
       medium_(medium),
+      far_options_(sums.far),
       quadrature_(sums.quadrature),
       charges_(without_zeros(molecule.charges)),
       points_(vertices_and_charges(surface, molecule)),
@@ -58,6 +67,28 @@ Eigen::VectorXd ChargeSums::right_side(const ProgressCallback& progress) const {
   return right_side;
 }
 
+ChargeSums::DoubleLayers ChargeSums::point_double_layers(const Eigen::VectorXd& unknowns, const ProgressCallback& progress) const {
+  // Without screening both kernels are the plain one, and one sum serves for both.
+  FarFieldOptions unscreened = far_options_;
+  unscreened.kappa = 0;
+  const FarField far(points_, unscreened, reaches_);
+  const NearField near(far, 0, reaches_);
+  std::vector<PointSources> sources(points_.size());
+  std::vector<PointFields> fields(points_.size());
+  for (std::size_t v = 0; v < surface_.size(); ++v) {
+    sources[v][kPlain].dipole = surface_.patches[v].area_vector;
+    sources[v][kScreened].dipole = unknowns[static_cast<Eigen::Index>(v)] * surface_.patches[v].area_vector;
+  }
+  far.apply(sources, fields, progress);
+  near.apply(sources, fields, progress);
+  DoubleLayers layers;
+  for (std::size_t k = 0; k < charges_.size(); ++k) {
+    layers.of_one.push_back(fields[surface_.size() + k][kPlain].potential);
+    layers.of_potential.push_back(fields[surface_.size() + k][kScreened].potential);
+  }
+  return layers;
+}
+
 double ChargeSums::energy(const Eigen::VectorXd& unknowns, const ProgressCallback& progress) const {
   const std::size_t vertices = surface_.size();
   const auto n = static_cast<Eigen::Index>(vertices);
@@ -67,6 +98,7 @@ double ChargeSums::energy(const Eigen::VectorXd& unknowns, const ProgressCallbac
   set_sources(surface_, medium_.ratio(), unknowns, sources);
   far_.apply(sources, fields, progress);
   near_.apply(sources, fields, progress);
+  DoubleLayers layers = point_double_layers(unknowns, progress);
   const CloseMatrix close(
       near_, surface_, vertices, charges_.size(),
       [&](std::size_t k) {
@@ -80,9 +112,12 @@ double ChargeSums::energy(const Eigen::VectorXd& unknowns, const ProgressCallbac
     const CloseMatrix::Row row = close[k];
     for (std::size_t entry = 0; entry < row.sources.size(); ++entry) {
       const auto j = static_cast<Eigen::Index>(row.sources[entry]);
-      potential += row.values[entry].k1 * unknowns[n + j] + row.values[entry].k2 * unknowns[j];
+      const KernelValues& values = row.values[entry];
+      potential += values.k1 * unknowns[n + j] + values.k2 * unknowns[j];
+      layers.of_one[k] += values.double_layer;
+      layers.of_potential[k] += values.double_layer * unknowns[j];
     }
-    energy += charges_[k] * potential;
+    energy += charges_[k] * (potential + (medium_.ratio() - 1) * missing_double_layer(layers.of_one[k], layers.of_potential[k]));
   }
   return 0.5 * kPotentialUnit * energy;
 }

@@ -12,7 +12,7 @@
 
 namespace smopt::metrics {
 
-/// The kernels of close pairs, integrated with the source's shape function over the triangles of its star: a sparse matrix of four numbers an entry.
+/// The kernels of close pairs, integrated with the source's shape function over the triangles of its star: a sparse matrix of five numbers an entry.
 class CloseMatrix {
  public:
   struct Row {
@@ -31,8 +31,6 @@ class CloseMatrix {
     const std::size_t begin = offsets_[target], count = offsets_[target + 1] - begin;
     return {std::span(sources_).subspan(begin, count), std::span(values_).subspan(begin, count)};
   }
-  /// ∂G0/∂ν integrated over the target's close patches.
-  [[nodiscard]] double double_layer(std::size_t target) const { return double_layers_[target]; }
   /// Entries.
   [[nodiscard]] std::size_t size() const { return sources_.size(); }
 
@@ -40,7 +38,6 @@ class CloseMatrix {
   std::vector<std::size_t> offsets_;
   std::vector<VertexId> sources_;
   std::vector<KernelValues> values_;
-  std::vector<double> double_layers_;
 };
 
 }  // namespace smopt::metrics

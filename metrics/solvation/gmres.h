@@ -7,14 +7,14 @@
 namespace smopt::metrics {
 
 struct GmresOptions {
-  double residual = 1e-6;    ///< relative, of the preconditioned system, at which it ends; (0, 1)
-  int max_iterations = 100;  ///< at least 1
-  int restart = 100;         ///< directions that are kept before it starts anew from where it is; at least 1
+  double residual;     ///< relative, of the preconditioned system, at which it ends; (0, 1)
+  int max_iterations;  ///< at least 1
+  int restart;         ///< directions that are kept before it starts anew from where it is; at least 1
 };
 
 struct GmresResult {
   Eigen::VectorXd solution;
-  int iterations = 0;            ///< each one product with the matrix
+  int iterations = 0;            ///< each one product with the matrix, and a restart is one more; 0 where one was not finite
   double relative_residual = 0;  ///< |M⁻¹(b - Ax)|/|M⁻¹b|, computed from the solution itself; NaN if a product was not finite
 };
 

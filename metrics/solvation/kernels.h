@@ -56,12 +56,14 @@ inline RadialKernels radial_kernels(double r, double kappa) {
 /// K1 = G0 - Gκ;  K2 = ε ∂Gκ/∂ν - ∂G0/∂ν;  K3 = ∂G0/∂n - (1/ε) ∂Gκ/∂n;  K4 = ∂²Gκ/∂n∂ν - ∂²G0/∂n∂ν.
 struct KernelValues {
   double k1 = 0, k2 = 0, k3 = 0, k4 = 0;
+  double double_layer = 0;  ///< ∂G0/∂ν, which is in K2 too: its integral over a closed surface is known
 
   void add(const KernelValues& other, double factor = 1) {
     k1 += factor * other.k1;
     k2 += factor * other.k2;
     k3 += factor * other.k3;
     k4 += factor * other.k4;
+    double_layer += factor * other.double_layer;
   }
 };
 
@@ -70,24 +72,19 @@ struct KernelParameters {
   double ratio;  ///< ε = ε_out/ε_in
 };
 
-/// The kernels, and ∂G0/∂ν by itself.
-struct KernelSample {
-  KernelValues values;
-  double double_layer = 0;
-};
-
-/// \param rho  x - y, Å; not 0.
-inline KernelSample kernel_sample(const Vec3& rho, const Vec3& n, const Vec3& nu, const KernelParameters& parameters) {
+/// \param rho   x - y, Å; not 0.
+/// \param lift  by how much y stands for a point farther along ν, Å: K3 has 1/r² times the target's small angle to it, and feels it first.
+inline KernelValues kernel_values(const Vec3& rho, const Vec3& n, const Vec3& nu, const KernelParameters& parameters, double lift = 0) {
   const RadialKernels radial = radial_kernels(rho.norm(), parameters.kappa);
   const double n_rho = n.dot(rho), nu_rho = nu.dot(rho);
   const double epsilon = parameters.ratio;
-  const double double_layer = radial.a_plain * nu_rho;
   KernelValues k;
+  k.double_layer = radial.a_plain * nu_rho;
   k.k1 = radial.g_difference;
-  k.k2 = (epsilon - 1) * double_layer - epsilon * radial.a_difference * nu_rho;
-  k.k3 = -((1 - 1 / epsilon) * radial.a_plain + radial.a_difference / epsilon) * n_rho;
+  k.k2 = (epsilon - 1) * k.double_layer - epsilon * radial.a_difference * nu_rho;
+  k.k3 = -((1 - 1 / epsilon) * radial.a_plain + radial.a_difference / epsilon) * (n_rho - lift * n.dot(nu));
   k.k4 = -radial.a_difference * n.dot(nu) + radial.b_difference * n_rho * nu_rho;
-  return {k, double_layer};
+  return k;
 }
 
 }  // namespace smopt::metrics

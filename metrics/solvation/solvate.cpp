@@ -35,12 +35,19 @@ void require_valid(const SolvationOptions& options) {
   require(medium.outer > 0 && std::isfinite(medium.outer), "the outer permittivity must be positive and finite");
   require(medium.ionic_strength >= 0 && std::isfinite(medium.ionic_strength), "the ionic strength must be at least 0 and finite");
   require(medium.temperature > 0 && std::isfinite(medium.temperature), "the temperature must be positive and finite");
+  require(std::isfinite(medium.kappa()), "ionic strength, outer permittivity and temperature give no finite screening length");
   require(std::isfinite(options.surface_tension), "the surface tension must be finite");
   require(std::isfinite(options.pressure), "the pressure must be finite");
   require(options.residual > 0 && options.residual < 1, "the residual must be in (0, 1)");
   require(options.max_iterations >= 1, "the number of iterations must be at least 1");
   require(options.restart >= 1, "the restart must be at least 1");
   require(options.block >= 1, "the block must be at least 1");
+}
+
+void require_finite(const Molecule& molecule) {
+  for (std::size_t k = 0; k < molecule.atom_count(); ++k)
+    if (!molecule.centers[k].allFinite() || !std::isfinite(molecule.charges[k]))
+      throw InvalidInput(fmt::format("solvation: atom {} has a coordinate or a charge that is not finite", k));
 }
 
 bool has_charges(const Molecule& molecule) {
@@ -105,6 +112,7 @@ void solve_for_polar(const SolvableSurface& surface, const Molecule& molecule, c
     return end_as(
         result, SolvationStatus::nonfinite,
         fmt::format("the charges' potential is not finite at vertex {}: a charge lies on it", first_nonfinite(right_side, surface)));
+  if (right_side.isZero(0)) return spread(right_side, surface, result);  // charges that cancel where they are
   Eigen::VectorXd unknowns;
   {
     const BoundaryOperator equations(surface.surface, {medium.kappa(), medium.ratio()}, sums, static_cast<std::size_t>(options.block),
@@ -115,7 +123,7 @@ void solve_for_polar(const SolvableSurface& surface, const Molecule& molecule, c
     unknowns = std::move(solved.solution);
   }
   if (!std::isfinite(result.relative_residual))
-    return end_as(result, SolvationStatus::nonfinite, "a product with the matrix is not finite");
+    return end_as(result, SolvationStatus::nonfinite, "a product with the system's matrix is not finite");
   spread(unknowns, surface, result);
   result.polar = ChargeSums(surface.surface, molecule, medium, sums).energy(unknowns, as_stage(options.progress, "energy"));
   if (!std::isfinite(result.polar)) return end_as(result, SolvationStatus::nonfinite, "the energy is not finite");
@@ -123,13 +131,6 @@ void solve_for_polar(const SolvableSurface& surface, const Molecule& molecule, c
     end_as(result, SolvationStatus::not_converged,
            fmt::format("the relative residual is {:.1e} after {} iterations, where {:.1e} was asked", result.relative_residual,
                        result.iterations, options.residual));
-}
-
-double total_area(const TriangleMesh& mesh) {
-  double doubled = 0;
-  for (const Triangle& t : mesh.triangles)
-    doubled += (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm();
-  return doubled / 2;
 }
 
 void require_memory(double bytes, const SolvationOptions& options) {
@@ -149,12 +150,13 @@ std::string to_string(SolvationStatus status) {
 Solvation solvate(const TriangleMesh& mesh, const Molecule& molecule, const SolvationOptions& options) {
   const Stopwatch watch;
   require_valid(options);
+  require_finite(molecule);
   const SolvableSurface surface(mesh);
   Solvation result;
   const double bytes = predicted_solvation_bytes(surface.surface, molecule, options);
   require_memory(bytes, options);
   result.predicted_memory_mb = bytes / kBytesPerMb;
-  result.area = total_area(surface.surface.mesh);
+  result.area = area_of(surface.surface.mesh);
   result.volume = signed_volume(surface.surface.mesh);
   result.nonpolar = options.surface_tension * result.area + options.pressure * result.volume;
   for (const VertexId v : degenerate_vertices(surface.surface.mesh, surface.surface.stars))

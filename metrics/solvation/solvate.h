@@ -40,7 +40,7 @@ struct Solvation {
   double nonpolar = 0;                        ///< kcal/mol: surface_tension · area + pressure · volume
   double area = 0;                            ///< Å²
   double volume = 0;                          ///< Å³, positive
-  int iterations = 0;                         ///< of GMRES, each one product with the matrix
+  int iterations = 0;                         ///< of GMRES, each one product with the matrix; 0 where one was not finite
   double relative_residual = 0;               ///< |b - Ax|/|b| of the preconditioned system, recomputed at the end
   std::vector<VertexId> degenerate_vertices;  ///< that AFMPB would reject: see `degenerate_vertices`
   std::size_t charges_outside = 0;            ///< non-zero charges that the surface does not enclose
@@ -60,8 +60,8 @@ struct Solvation {
 /// A mesh of negative volume is turned round. Points in no triangle are left out. Vertices that have no normal do not keep the others from being solved.
 ///
 /// All cores, the same bytes for any number of threads. Cost: O(n); TABLE
-/// \throws InvalidMesh for a surface that is open, has edges of more than two triangles, is not oriented, or has coordinates that are not finite;
-/// InvalidOption; InvalidInput when it would need more memory than is allowed, with the estimate; Cancelled.
+/// \throws InvalidMesh for a surface that is open, has edges of more than two triangles, is not oriented, encloses nothing, has components that
+/// point the wrong way or coordinates that are not finite; InvalidOption; InvalidInput for atoms that are not finite, and when it would need more memory than is allowed, with the estimate; Cancelled.
 Solvation solvate(const TriangleMesh& surface, const Molecule& molecule, const SolvationOptions& options = {});
 
 /// Memory that `solvate` takes at its largest, bytes. \throws as `solvate` for the surface and the options. Cost: 0.1 s for 65 000 vertices.

@@ -10,7 +10,7 @@ namespace smopt::metrics {
 namespace {
 
 /// reach³ · accuracy: the least with which what was measured stays below what is asked.
-constexpr double kReachCubedByError = 0.1;
+constexpr double kReachCubedByError = 0.03;
 
 /// No cluster is far from another one at this.
 constexpr double kNeverFar = 1e-300;

@@ -5,8 +5,8 @@
 namespace smopt::metrics {
 namespace {
 
-/// After so many halvings a piece is 2⁻³⁰ times as long as the triangle.
-constexpr int kMostHalvings = 60;
+/// After so many halvings a piece is some 2⁻⁵⁰ times as long as the triangle, which coordinates resolve no more.
+constexpr int kMostHalvings = 100;
 
 struct Node {
   Vec3 corner_weights;
@@ -42,20 +42,16 @@ constexpr std::array<LineNode, 4> kGauss4 = {{{0.06943184420297371, 0.1739274225
                                               {0.66999052179242813, 0.32607257743127308},
                                               {0.93056815579702629, 0.17392742256872692}}};
 
-void add(CornerIntegrals& sum, const KernelSample& sample, const Vec3& shape, double weight) {
-  for (int corner = 0; corner < 3; ++corner) {
-    KernelSample& at = sum[static_cast<std::size_t>(corner)];
-    at.values.add(sample.values, weight * shape[corner]);
-    at.double_layer += weight * shape[corner] * sample.double_layer;
-  }
+void add(CornerIntegrals& sum, const KernelValues& values, const Vec3& shape, double weight) {
+  for (int corner = 0; corner < 3; ++corner) sum[static_cast<std::size_t>(corner)].add(values, weight * shape[corner]);
 }
 
 /// Cuts one triangle for one target.
 class TriangleIntegration {
  public:
-  TriangleIntegration(const TargetPoint& target, const std::array<Vec3, 3>& corners, const KernelParameters& parameters,
-                      const TriangleQuadrature& quadrature)
-      : target_(target), parameters_(parameters), largest_piece2_(quadrature.largest_piece * quadrature.largest_piece) {
+  TriangleIntegration(const TargetPoint& target, const std::array<Vec3, 3>& corners, const SideHeights& heights,
+                      const KernelParameters& parameters, const TriangleQuadrature& quadrature)
+      : target_(target), heights_(heights), parameters_(parameters), largest_piece2_(quadrature.largest_piece * quadrature.largest_piece) {
     const Vec3 doubled = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     const double length = doubled.norm();
     if (!(length > 0)) return;
@@ -102,11 +98,17 @@ class TriangleIntegration {
       const Vec3& w = node.corner_weights;
       const Vec3 y = w[0] * piece.corners[0] + w[1] * piece.corners[1] + w[2] * piece.corners[2];
       const Vec3 shape = w[0] * piece.shapes[0] + w[1] * piece.shapes[1] + w[2] * piece.shapes[2];
-      add(sum, kernel_sample(target_.position - y, target_.normal, normal_, parameters_), shape, node.weight * area);
+      add(sum, kernel_values(target_.position - y, target_.normal, normal_, parameters_, lift_at(shape)), shape, node.weight * area);
     }
   }
 
+  /// How far the surface is above the triangle.
+  [[nodiscard]] double lift_at(const Vec3& shape) const {
+    return -(shape[0] * shape[1] * heights_.of_01 + shape[1] * shape[2] * heights_.of_12 + shape[2] * shape[0] * heights_.of_20);
+  }
+
   const TargetPoint& target_;
+  const SideHeights& heights_;
   const KernelParameters& parameters_;
   double largest_piece2_;
   Vec3 normal_ = Vec3::Zero();
@@ -115,7 +117,7 @@ class TriangleIntegration {
 /// Cuts one triangle, in angles around the target that is its first corner.
 class CornerIntegration {
  public:
-  CornerIntegration(const TargetPoint& target, const std::array<Vec3, 3>& corners, const CornerHeights& heights,
+  CornerIntegration(const TargetPoint& target, const std::array<Vec3, 3>& corners, const SideHeights& heights,
                     const KernelParameters& parameters, const TriangleQuadrature& quadrature)
       : target_(target),
         parameters_(parameters),
@@ -149,31 +151,32 @@ class CornerIntegration {
       const double side = side_at(t).norm();
       const double height = parabola_at(t);
       for (const LineNode& along : kGauss4)
-        add(sum, sample_at(along.at * side, along.at * along.at * height), Vec3(1 - along.at, along.at * (1 - t), along.at * t),
+        add(sum, values_at(along.at * side, along.at * along.at * height), Vec3(1 - along.at, along.at * (1 - t), along.at * t),
             across.weight * (end - begin) * along.weight * along.at * doubled_area_);
     }
   }
 
   /// The height at the opposite side; within the triangle it is s² times that.
   [[nodiscard]] double parabola_at(double t) const {
-    return (1 - t) * (1 - t) * heights_.a + t * t * heights_.b + t * (1 - t) * (heights_.a + heights_.b - heights_.ab);
+    const double a = heights_.of_01, b = heights_.of_20;
+    return (1 - t) * (1 - t) * a + t * t * b + t * (1 - t) * (a + b - heights_.of_12);
   }
 
   /// At a distance r in the plane of the triangle, where ν·ρ = 0 and n·ρ is minus the height.
-  [[nodiscard]] KernelSample sample_at(double r, double height) const {
+  [[nodiscard]] KernelValues values_at(double r, double height) const {
     const RadialKernels radial = radial_kernels(r, parameters_.kappa);
     const double epsilon = parameters_.ratio;
     KernelValues k;
     k.k1 = radial.g_difference;
     k.k3 = ((1 - 1 / epsilon) * radial.a_plain + radial.a_difference / epsilon) * height;
     k.k4 = -radial.a_difference * n_nu_;
-    return {k, 0};
+    return k;
   }
 
   const TargetPoint& target_;
   const KernelParameters& parameters_;
   double largest_piece_;
-  const CornerHeights& heights_;
+  const SideHeights& heights_;
   Vec3 a_, b_;
   double doubled_area_ = 0;
   double n_nu_ = 0;
@@ -181,12 +184,12 @@ class CornerIntegration {
 
 }  // namespace
 
-CornerIntegrals integrate(const TargetPoint& target, const std::array<Vec3, 3>& corners, const KernelParameters& parameters,
-                          const TriangleQuadrature& quadrature) {
-  return TriangleIntegration(target, corners, parameters, quadrature).sum;
+CornerIntegrals integrate(const TargetPoint& target, const std::array<Vec3, 3>& corners, const SideHeights& heights,
+                          const KernelParameters& parameters, const TriangleQuadrature& quadrature) {
+  return TriangleIntegration(target, corners, heights, parameters, quadrature).sum;
 }
 
-CornerIntegrals integrate_at_corner(const TargetPoint& target, const std::array<Vec3, 3>& corners, const CornerHeights& heights,
+CornerIntegrals integrate_at_corner(const TargetPoint& target, const std::array<Vec3, 3>& corners, const SideHeights& heights,
                                     const KernelParameters& parameters, const TriangleQuadrature& quadrature) {
   return CornerIntegration(target, corners, heights, parameters, quadrature).sum;
 }

@@ -20,7 +20,13 @@ struct TriangleQuadrature {
 };
 
 /// Each kernel times each corner's linear shape function, integrated over a flat triangle.
-using CornerIntegrals = std::array<KernelSample, 3>;
+using CornerIntegrals = std::array<KernelValues, 3>;
+
+/// How high the surface is above the tangent plane of one corner at another, ångström, for each side; the parabolas that a flat triangle hides. Without
+/// them ∂G0/∂n has no integral at a vertex, and errs by the first power of the edge length near it.
+struct SideHeights {
+  double of_01 = 0, of_12 = 0, of_20 = 0;
+};
 
 /// For a target that is not a corner of the triangle; it may be as close as one likes.
 ///
@@ -28,19 +34,12 @@ using CornerIntegrals = std::array<KernelSample, 3>;
 /// 1948). Pieces that are still too long after kMostHalvings are left out: that happens only where the target is on the triangle, and what is left of
 /// the integral is its principal value.
 /// Cost: 7 kernels a piece; the number of pieces grows with the logarithm of length by distance.
-CornerIntegrals integrate(const TargetPoint& target, const std::array<Vec3, 3>& corners, const KernelParameters& parameters,
-                          const TriangleQuadrature& quadrature);
-
-/// How high the surface's points are above the target's tangent plane, at the corners after the first one and along the side between them: a parabola
-/// that the flat triangle hides, without which ∂G0/∂n has no integral at a vertex. Å; for side ab, half of what the second point is above the first's plane
-/// and the first above the second's.
-struct CornerHeights {
-  double a = 0, b = 0, ab = 0;
-};
+CornerIntegrals integrate(const TargetPoint& target, const std::array<Vec3, 3>& corners, const SideHeights& heights,
+                          const KernelParameters& parameters, const TriangleQuadrature& quadrature);
 
 /// For a target at the triangle's first corner, where ∂G0/∂ν vanishes and the other kernels are weakly singular in the polar coordinates around it
 /// (Duffy 1982, SIAM J. Numer. Anal. 19:1260): y = x + s((1 - t)·a + t·b).
-CornerIntegrals integrate_at_corner(const TargetPoint& target, const std::array<Vec3, 3>& corners, const CornerHeights& heights,
+CornerIntegrals integrate_at_corner(const TargetPoint& target, const std::array<Vec3, 3>& corners, const SideHeights& heights,
                                     const KernelParameters& parameters, const TriangleQuadrature& quadrature);
 
 }  // namespace smopt::metrics

@@ -7,6 +7,7 @@
 
 #include "metrics/solvation/solvate.h"
 #include "metrics/solvation/solvation_json.h"
+#include "metrics/solvation/surface_sums.h"
 #include "smopt/cli/command.h"
 #include "smopt/cli/progress_bar.h"
 #include "smopt/error.h"
@@ -128,7 +129,7 @@ void add_medium_options(CLI::App& command, metrics::SolvationOptions& options) {
 }
 
 void add_solver_options(CLI::App& command, metrics::SolvationOptions& options) {
-  command.add_option("--accuracy", options.accuracy, "what the sums may change of the energy, relative; 1e-4 to 0.1")
+  command.add_option("--accuracy", options.accuracy, fmt::format("what the sums may change of the energy, relative; {} to {}", metrics::kBestAccuracy, metrics::kWorstAccuracy))
       ->capture_default_str();
   command.add_flag("--direct", options.is_direct, "sum what is not integrated pair by pair: for reference, and slow");
   command.add_option("--residual", options.residual, "relative residual at which the linear system counts as solved")

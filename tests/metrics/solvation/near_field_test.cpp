@@ -91,15 +91,18 @@ TEST(NearField, MakesWithTheFarFieldTheSumOverAllPairsThatAreNotClose) {
   const Points points = points_with_reaches(7);
   for (const double tolerance : {1e-3, 1e-6}) {
     const std::vector<PointFields> fields = fields_of(points, tolerance);
-    double errors = 0, norms = 0;
+    double errors = 0, norms = 0, potential_errors = 0, potential_norms = 0;
     for (std::size_t i = 0; i < points.at.size(); i += 7) {
       const PointFields expected = direct_fields(points, i);
       for (const std::size_t kernel : {kPlain, kScreened}) {
         errors += (fields[i][kernel].gradient - expected[kernel].gradient).squaredNorm();
         norms += expected[kernel].gradient.squaredNorm();
+        potential_errors += std::pow(fields[i][kernel].potential - expected[kernel].potential, 2);
+        potential_norms += std::pow(expected[kernel].potential, 2);
       }
     }
     EXPECT_LT(std::sqrt(errors / norms), tolerance);
+    EXPECT_LT(std::sqrt(potential_errors / potential_norms), tolerance);
   }
 }
 

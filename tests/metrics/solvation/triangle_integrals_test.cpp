@@ -42,15 +42,15 @@ TEST(Kernels, AreTheirFormulasWhereThoseLoseNoDigits) {
       const auto vector = [&] { return Vec3(number(random), number(random), number(random)); };
       const Vec3 rho = scale * vector(), n = vector().normalized(), nu = vector().normalized();
       const PlainKernels expected = plain_kernels(rho, n, nu, kWater);
-      const KernelSample sample = kernel_sample(rho, n, nu, kWater);
+      const KernelValues sample = kernel_values(rho, n, nu, kWater);
       const auto near = [](double value, long double exact, long double scale_of) {
         EXPECT_NEAR(value, static_cast<double>(exact), 1e-12 * static_cast<double>(scale_of));
       };
       const long double r = rho.norm();
-      near(sample.values.k1, expected.k1, 1 / r);
-      near(sample.values.k2, expected.k2, 40 / (r * r));
-      near(sample.values.k3, expected.k3, 1 / (r * r));
-      near(sample.values.k4, expected.k4, 1 / (r * r * r));
+      near(sample.k1, expected.k1, 1 / r);
+      near(sample.k2, expected.k2, 40 / (r * r));
+      near(sample.k3, expected.k3, 1 / (r * r));
+      near(sample.k4, expected.k4, 1 / (r * r * r));
       near(sample.double_layer, expected.double_layer, 1 / (r * r));
     }
   }
@@ -60,11 +60,11 @@ TEST(Kernels, AreTheirFormulasWhereThoseLoseNoDigits) {
 TEST(Kernels, KeepTheirDigitsAtTinyDistances) {
   const double r = 1e-6, kappa = kWater.kappa;
   const Vec3 e = Vec3(1, 2, -2) / 3, n = Vec3(2, 1, 2) / 3;
-  const KernelSample sample = kernel_sample(r * e, n, n, kWater);
-  EXPECT_NEAR(sample.values.k1 * 4 * std::numbers::pi / kappa, 1, 1e-6);
+  const KernelValues sample = kernel_values(r * e, n, n, kWater);
+  EXPECT_NEAR(sample.k1 * 4 * std::numbers::pi / kappa, 1, 1e-6);
   // K4 -> -κ²/(8πr)·(n·ν - (n·e)(ν·e)).
   const double expected = -kappa * kappa / (8 * std::numbers::pi * r) * (1 - n.dot(e) * n.dot(e));
-  EXPECT_NEAR(sample.values.k4 / expected, 1, 1e-6);
+  EXPECT_NEAR(sample.k4 / expected, 1, 1e-6);
 }
 
 TEST(Kernels, SeriesAndFormulaOfTheDefectsMeet) {
@@ -80,12 +80,9 @@ double solid_angle(const Vec3& x, const std::array<Vec3, 3>& corners) {
   return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) / (4 * std::numbers::pi);
 }
 
-KernelSample whole(const CornerIntegrals& integrals) {
-  KernelSample sum;
-  for (const KernelSample& corner : integrals) {
-    sum.values.add(corner.values);
-    sum.double_layer += corner.double_layer;
-  }
+KernelValues whole(const CornerIntegrals& integrals) {
+  KernelValues sum;
+  for (const KernelValues& corner : integrals) sum.add(corner);
   return sum;
 }
 
@@ -95,13 +92,13 @@ const std::array<Vec3, 3> kNeedle = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.7, 1e-
 /// ∫ ∂G0/∂ν is minus the solid angle, however close the target is.
 TEST(TriangleIntegrals, DoubleLayerIsTheSolidAngle) {
   for (const auto& triangle : {kTriangle, kNeedle}) {
-    for (const double height : {3.0, 0.3, 0.03, 1e-4, -1e-4, -0.3}) {
+    for (const double height : {3.0, 0.3, 0.03, 1e-4, 1e-10, -1e-4, -0.3}) {
       for (const Vec3& foot : {Vec3(0.4, 0.2, 0), Vec3(0.5, 0, 0), Vec3(-0.2, 0.5, 0), Vec3(0.7, 5e-4, 0)}) {
         const Vec3 x = foot + Vec3(0, 0, height);
         const double exact = -solid_angle(x, triangle);
-        EXPECT_NEAR(whole(integrate({x, Vec3::Zero()}, triangle, kWater, {})).double_layer, exact, 1e-4)
+        EXPECT_NEAR(whole(integrate({x, Vec3::Zero()}, triangle, {}, kWater, {})).double_layer, exact, 1e-4)
             << height << ' ' << foot.transpose();
-        EXPECT_NEAR(whole(integrate({x, Vec3::Zero()}, triangle, kWater, {0.3})).double_layer, exact, 2e-8)
+        EXPECT_NEAR(whole(integrate({x, Vec3::Zero()}, triangle, {}, kWater, {0.3})).double_layer, exact, 1e-7)
             << height << ' ' << foot.transpose();
       }
     }
@@ -110,31 +107,31 @@ TEST(TriangleIntegrals, DoubleLayerIsTheSolidAngle) {
 
 TEST(TriangleIntegrals, FinerPiecesChangeLittle) {
   const TargetPoint target = {{0.4, 0.3, 0.05}, Vec3(1, 2, 3).normalized()};
-  const CornerIntegrals coarse = integrate(target, kTriangle, kWater, {1});
-  const CornerIntegrals fine = integrate(target, kTriangle, kWater, {0.1});
+  const CornerIntegrals coarse = integrate(target, kTriangle, {}, kWater, {1});
+  const CornerIntegrals fine = integrate(target, kTriangle, {}, kWater, {0.1});
   for (std::size_t c = 0; c < 3; ++c) {
-    EXPECT_NEAR(coarse[c].values.k1, fine[c].values.k1, 1e-6);
-    EXPECT_NEAR(coarse[c].values.k2, fine[c].values.k2, 1e-4 * 40);
-    EXPECT_NEAR(coarse[c].values.k3, fine[c].values.k3, 1e-4);
-    EXPECT_NEAR(coarse[c].values.k4, fine[c].values.k4, 1e-4);
+    EXPECT_NEAR(coarse[c].k1, fine[c].k1, 1e-6);
+    EXPECT_NEAR(coarse[c].k2, fine[c].k2, 1e-4 * 40);
+    EXPECT_NEAR(coarse[c].k3, fine[c].k3, 1e-4);
+    EXPECT_NEAR(coarse[c].k4, fine[c].k4, 1e-4);
   }
 }
 
 TEST(TriangleIntegrals, ATargetOnTheTriangleGetsThePrincipalValue) {
-  const CornerIntegrals integrals = integrate({{0.4, 0.2, 0}, Vec3::UnitX()}, kTriangle, kWater, {});
+  const CornerIntegrals integrals = integrate({{0.4, 0.2, 0}, Vec3::UnitX()}, kTriangle, {}, kWater, {});
   EXPECT_NEAR(whole(integrals).double_layer, 0, 1e-12);
-  EXPECT_TRUE(std::isfinite(whole(integrals).values.k3));
+  EXPECT_TRUE(std::isfinite(whole(integrals).k3));
 }
 
 /// At a corner, against the other way: a target that comes ever nearer to it along the plane, where ∂G0/∂ν is 0 too.
 TEST(TriangleIntegrals, CornersAreTheLimitOfTargetsBesideThem) {
   const Vec3 normal = Vec3::UnitZ();
   const CornerIntegrals at = integrate_at_corner({kTriangle[0], normal}, kTriangle, {}, kWater, {});
-  const CornerIntegrals beside = integrate({{-1e-6, -1e-6, 0}, normal}, kTriangle, kWater, {0.3});
+  const CornerIntegrals beside = integrate({{-1e-6, -1e-6, 0}, normal}, kTriangle, {}, kWater, {0.3});
   for (std::size_t c = 0; c < 3; ++c) {
-    EXPECT_NEAR(at[c].values.k1, beside[c].values.k1, 1e-6 * std::abs(beside[c].values.k1));
-    EXPECT_NEAR(at[c].values.k4, beside[c].values.k4, 1e-4 * std::abs(beside[c].values.k4));
-    EXPECT_EQ(at[c].values.k2, 0);
+    EXPECT_NEAR(at[c].k1, beside[c].k1, 1e-6 * std::abs(beside[c].k1));
+    EXPECT_NEAR(at[c].k4, beside[c].k4, 1e-4 * std::abs(beside[c].k4));
+    EXPECT_EQ(at[c].k2, 0);
     EXPECT_EQ(at[c].double_layer, 0);
   }
 }
@@ -147,8 +144,8 @@ TEST(TriangleIntegrals, InverseDistanceFromACornerIsTheAnalyticOne) {
     const double from = (triangle[1] - triangle[0]).dot(side), to = (triangle[2] - triangle[0]).dot(side);
     const double height = (triangle[1] - triangle[0] - from * side).norm();
     const double exact = height * (std::asinh(to / height) - std::asinh(from / height));
-    const KernelSample sum = whole(integrate_at_corner({triangle[0], Vec3::UnitZ()}, triangle, {}, {kappa, 40}, {}));
-    EXPECT_NEAR(sum.values.k4 * -8 * std::numbers::pi / (kappa * kappa), exact, 1e-4 * exact);
+    const KernelValues sum = whole(integrate_at_corner({triangle[0], Vec3::UnitZ()}, triangle, {}, {kappa, 40}, {}));
+    EXPECT_NEAR(sum.k4 * -8 * std::numbers::pi / (kappa * kappa), exact, 1e-4 * exact);
   }
 }
 
@@ -156,21 +153,47 @@ TEST(TriangleIntegrals, InverseDistanceFromACornerIsTheAnalyticOne) {
 TEST(TriangleIntegrals, HeightsGiveTheNormalDerivativeOfACurvedSurface) {
   const double radius = 100;
   const auto height = [&](const Vec3& from, const Vec3& to) { return -(to - from).squaredNorm() / (2 * radius); };
-  const CornerHeights heights = {height(kTriangle[0], kTriangle[1]), height(kTriangle[0], kTriangle[2]),
-                                 height(kTriangle[1], kTriangle[2])};
+  const SideHeights heights = {height(kTriangle[0], kTriangle[1]), height(kTriangle[1], kTriangle[2]), height(kTriangle[2], kTriangle[0])};
   const Vec3 side = (kTriangle[2] - kTriangle[1]).normalized();
   const double from = (kTriangle[1] - kTriangle[0]).dot(side), to = (kTriangle[2] - kTriangle[0]).dot(side);
   const double h = (kTriangle[1] - kTriangle[0] - from * side).norm();
   const double inverse_distance = h * (std::asinh(to / h) - std::asinh(from / h));
-  const KernelSample sum = whole(integrate_at_corner({kTriangle[0], Vec3::UnitZ()}, kTriangle, heights, {0, 40}, {}));
+  const KernelValues sum = whole(integrate_at_corner({kTriangle[0], Vec3::UnitZ()}, kTriangle, heights, {0, 40}, {}));
   const double exact = -(1 - 1.0 / 40) / (8 * std::numbers::pi * radius) * inverse_distance;
-  EXPECT_NEAR(sum.values.k3, exact, 1e-4 * std::abs(exact));
+  EXPECT_NEAR(sum.k3, exact, 1e-4 * std::abs(exact));
+}
+
+/// A flat triangle hides that the sphere rises above it; with the heights K3 is that of the triangle of four times as many, corners on the sphere.
+TEST(TriangleIntegrals, HeightsLiftATriangleOntoItsSphere) {
+  const double radius = 10;
+  const auto on_sphere = [&](double x, double y) { return Vec3(x, y, std::sqrt(radius * radius - x * x - y * y)); };
+  const TargetPoint target = {on_sphere(0, 0), Vec3::UnitZ()};
+  const std::array<Vec3, 3> corners = {on_sphere(1, 0), on_sphere(2, 0), on_sphere(1.5, 0.9)};
+  const auto height = [&](const Vec3& from, const Vec3& to) { return -(to - from).squaredNorm() / (2 * radius); };
+  const SideHeights heights = {height(corners[0], corners[1]), height(corners[1], corners[2]), height(corners[2], corners[0])};
+  const auto k3 = [&](const std::array<Vec3, 3>& triangle, const SideHeights& h) {
+    return whole(integrate(target, triangle, h, kWater, {})).k3;
+  };
+  // Each side cut into 16, and the points put onto the sphere.
+  constexpr int kParts = 16;
+  const auto at = [&](int i, int j) {
+    const Vec3 flat = corners[0] + (corners[1] - corners[0]) * i / kParts + (corners[2] - corners[0]) * j / kParts;
+    return Vec3(flat * (radius / flat.norm()));
+  };
+  double curved = 0;
+  for (int i = 0; i < kParts; ++i)
+    for (int j = 0; i + j < kParts; ++j) {
+      curved += k3({at(i, j), at(i + 1, j), at(i, j + 1)}, {});
+      if (i + j + 1 < kParts) curved += k3({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, {});
+    }
+  EXPECT_GT(std::abs(k3(corners, {}) / curved - 1), 0.05);
+  EXPECT_NEAR(k3(corners, heights) / curved, 1, 0.01);
 }
 
 TEST(TriangleIntegrals, ATriangleWithoutAreaGivesNothing) {
   const std::array<Vec3, 3> flat = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0, 0)};
-  EXPECT_EQ(whole(integrate({{0, 0, 1}, Vec3::UnitX()}, flat, kWater, {})).values.k1, 0);
-  EXPECT_EQ(whole(integrate_at_corner({flat[0], Vec3::UnitZ()}, flat, {}, kWater, {})).values.k1, 0);
+  EXPECT_EQ(whole(integrate({{0, 0, 1}, Vec3::UnitX()}, flat, {}, kWater, {})).k1, 0);
+  EXPECT_EQ(whole(integrate_at_corner({flat[0], Vec3::UnitZ()}, flat, {}, kWater, {})).k1, 0);
 }
 
 }  // namespace
