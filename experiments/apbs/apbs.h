@@ -14,7 +14,7 @@ struct ApbsOptions {
   ApbsSurface surface = ApbsSurface::molecular;
   double spacing = 0.5;                    ///< of the grid, Å; positive
   GaussianSurfaceOptions gaussian;         ///< decay and isovalue of a Gaussian surface
-  ProcessLimits limits = {1800, 4096, 0};  ///< 225³ nodes take a minute and 2.6 GB
+  ProcessLimits limits = {1800, 8192, 0};  ///< 225³ nodes take a minute and 2.6 to 4.5 GB
 };
 
 struct ApbsResult {

@@ -35,7 +35,7 @@ inline constexpr int kHighestDegree = 16;
 ///
 /// (Bumpy spheres of 10 000 to 160 000 points, kappa 0, 0.125714 and 1; the last line without kappa 1, where the screened far part is next to
 /// nothing.)
-/// Where near parts cancel, as the kernels' differences in an integral equation do, the last line is what counts: ask for a tenth.
+/// Where near parts cancel, as the kernels' differences in an integral equation do, the last line is what counts.
 /// Throws InvalidOption for a tolerance below 5e-9, or not below 1.
 FarFieldOptions options_for(double tolerance, double kappa);
 
