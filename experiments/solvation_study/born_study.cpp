@@ -17,8 +17,10 @@ double mean_edge(const TriangleMesh& mesh) {
 }
 
 BornRow solve_on(const TriangleMesh& sphere, const BornIon& ion) {
+  constexpr double kAccuracy = 1e-3;  // finer than the default, so that the mesh's error shows
   metrics::SolvationOptions options;
   options.medium = ion.medium;
+  options.accuracy = kAccuracy;
   BornRow row;
   row.edge = mean_edge(sphere);
   row.solve = solve(sphere, {{Vec3::Zero()}, {ion.charge}, {ion.radius}}, options);
@@ -38,7 +40,7 @@ BornSeries study_born(const BornIon& ion, const std::vector<int>& divisions, con
   for (const int level : divisions) {
     BornRow row = solve_on(icosphere(level, ion.radius), ion);
     log(fmt::format("Born ion, kappa {:.6f}, {} vertices: {}", ion.medium.kappa(), row.solve.vertices, describe(row.solve)));
-    if (!series.rows.empty() && row.error && series.rows.back().error)
+    if (!series.rows.empty() && row.error && series.rows.back().error.value_or(0) > kErrorOfSums)
       row.order = std::log(*series.rows.back().error / *row.error) / std::log(series.rows.back().edge / row.edge);
     series.rows.push_back(std::move(row));
   }

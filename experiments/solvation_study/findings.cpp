@@ -24,8 +24,8 @@ const char* verdict(bool holds) {
   return holds ? "Holds" : "Does not hold";
 }
 
-std::string percent(double part) {
-  return fmt::format("{:.2f} %", 100 * part);
+std::string percent(double part, int decimals = 2) {
+  return fmt::format("{:.{}f} %", 100 * part, decimals);
 }
 
 /// The coarsest row that must be within kBornError; null where there is none.
@@ -44,14 +44,14 @@ double least_order(const BornSeries& series) {
 std::string born_finding(const BornSeries& series) {
   const double kappa = series.ion.medium.kappa();
   const BornRow* row = judged_row(series);
+  if (row == nullptr || !row->error) return fmt::format("Not shown: Born's ion, κ = {:.6f} Å⁻¹: no error.", kappa);
   const double order = least_order(series);
-  if (row == nullptr || !row->error || !std::isfinite(order))
-    return fmt::format("Not shown: Born's ion, κ = {:.6f} Å⁻¹: no error or no order.", kappa);
-  return fmt::format(
-      "{}: Born's ion, κ = {:.6f} Å⁻¹: the energy's error falls at order {:.2f} or better and is {:.3f} % at {} vertices (asked for: order "
-      "{}, {} %).",
-      verdict(order >= kBornOrder && *row->error < kBornError), kappa, order, 100 * *row->error, row->solve.vertices, kBornOrder,
-      100 * kBornError);
+  const std::string falls = std::isfinite(order)
+                                ? fmt::format("falls at order {:.2f} or better down to {}", order, percent(kErrorOfSums, 3))
+                                : fmt::format("is below {} on every mesh", percent(kErrorOfSums, 3));
+  return fmt::format("{}: Born's ion, κ = {:.6f} Å⁻¹: the energy's error {}, and is {} at {} vertices (asked for: order {}, {}).",
+                     verdict(order >= kBornOrder && *row->error < kBornError), kappa, falls, percent(*row->error, 4), row->solve.vertices,
+                     kBornOrder, percent(kBornError));
 }
 
 std::string refinement_finding(const Refinement& refinement, const RefinementSeries& series) {
@@ -95,15 +95,21 @@ std::string cost_finding(const MoleculeComparison& comparison) {
                      improved->vertices, result.seconds, result.predicted_memory_mb, kMonomerSeconds, kMonomerMemoryMb);
 }
 
+/// The mesh as generated, cavities and all, or the improved one where the solver does not converge on that.
+SurfaceVariant compared_variant(const MoleculeComparison& comparison) {
+  const Solve* generated = comparison.find(SurfaceVariant::generated);
+  return generated != nullptr && generated->is_success() ? SurfaceVariant::generated : SurfaceVariant::smopt;
+}
+
 std::string apbs_finding(const MoleculeComparison& comparison, ApbsSurface surface) {
   const std::string what = fmt::format("{}, APBS with the {} surface", comparison.dataset.title, to_string(surface));
-  const Solve* ours = comparison.find(SurfaceVariant::generated);
+  const SurfaceVariant variant = compared_variant(comparison);
+  const Solve* ours = comparison.find(variant);
   const auto theirs = comparison.apbs_limit(surface);
   if (!theirs || ours == nullptr || !ours->is_success()) return fmt::format("Not shown: {}: no two energies to compare.", what);
   const double ratio = ours->result->polar / *theirs;
-  return fmt::format(
-      "{}: {:.1f} kcal/mol, extrapolated to no spacing; ours on the mesh as generated: {:.1f} kcal/mol, {} sign, {:.3f} times as much.",
-      what, *theirs, ours->result->polar, ratio > 0 ? "the same" : "another", ratio);
+  return fmt::format("{}: {:.1f} kcal/mol, extrapolated to no spacing; ours ({}): {:.1f} kcal/mol, {} sign, {:.3f} times as much.", what,
+                     *theirs, to_string(variant), ours->result->polar, ratio > 0 ? "the same" : "another", ratio);
 }
 
 }  // namespace
