@@ -87,7 +87,8 @@ TEST(Apbs, ASpacingThatNeedsTooMuchMemoryIsAFailureWithTheEstimate) {
   if (!has_apbs()) GTEST_SKIP() << "apbs is not installed";
   ApbsOptions options;
   options.spacing = 0.05;
-  EXPECT_THAT([&] { run_apbs(ion(1, 2), options); }, ThrowsMessage<MethodFailed>(HasSubstr("4096 MB are allowed")));
+  options.limits.memory_mb = 1000;
+  EXPECT_THAT([&] { run_apbs(ion(1, 2), options); }, ThrowsMessage<MethodFailed>(HasSubstr("1000 MB are allowed")));
   EXPECT_THROW(run_apbs({}, options), InvalidInput);
 }
 
