@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <filesystem>
 #include <functional>
+#include <string>
 
 #include "smopt/error.h"
+#include "smopt/io/file.h"
 
 namespace smopt::experiments {
 
@@ -31,6 +34,18 @@ inline int run_study_program(CLI::App& app, int argc, char** argv, const std::fu
   } catch (const std::exception& error) {
     return report(error, kInternalError);
   }
+}
+
+/// Writes NAME.md, and NAME.json if there is one, into a folder that is made for them; without a folder, the page to standard output.
+inline void write_study(const std::filesystem::path& folder, const std::string& name, const std::string& page,
+                        const std::string& json = {}) {
+  if (folder.empty()) {
+    fmt::print("{}", page);
+    return;
+  }
+  std::filesystem::create_directories(folder);
+  write_file(folder / (name + ".md"), page);
+  if (!json.empty()) write_file(folder / (name + ".json"), json);
 }
 
 }  // namespace smopt::experiments

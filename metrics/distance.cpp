@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "metrics/degenerate.h"
+#include "metrics/extent.h"
 #include "metrics/finite.h"
 
 namespace smopt::metrics {
@@ -56,12 +57,6 @@ double triangle_area(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm();
 }
 
-double total_area(const TriangleMesh& mesh) {
-  double area = 0;
-  for (const Triangle& t : mesh.triangles) area += triangle_area(mesh, t);
-  return area;
-}
-
 /// The `k`-th point of a sequence that fills a triangle evenly.
 Vec3 point_in_triangle(const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
   double ignored = 0;
@@ -72,7 +67,7 @@ Vec3 point_in_triangle(const TriangleMesh& mesh, const Triangle& t, std::size_t 
 
 /// `count` points, each standing for an equal part of the area, in the order of the triangles.
 std::vector<Vec3> sample_by_area(const TriangleMesh& mesh, std::size_t count) {
-  const double step = total_area(mesh) / static_cast<double>(count);
+  const double step = surface_area(mesh) / static_cast<double>(count);
   std::vector<Vec3> samples;
   samples.reserve(count);
   std::size_t f = 0;
@@ -119,7 +114,7 @@ OneSidedDistance one_sided(const TriangleMesh& from, const NearestPoint& to, std
 /// Empty when `mesh` has something to measure from and to.
 std::string why_not_measurable(const TriangleMesh& mesh) {
   if (!has_finite_triangles(mesh)) return "has a triangle with a corner that is not finite";
-  if (!(total_area(mesh) > 0)) return "has no triangle with an area";
+  if (!(surface_area(mesh) > 0)) return "has no triangle with an area";
   return {};
 }
 

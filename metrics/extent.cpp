@@ -7,12 +7,6 @@
 namespace smopt::metrics {
 namespace {
 
-double area_of(const TriangleMesh& mesh) {
-  double doubled = 0;
-  for (const auto& [a, b, c] : mesh.triangles) doubled += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
-  return doubled / 2;
-}
-
 double volume_of(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Triangle& t : mesh.triangles)
@@ -33,13 +27,19 @@ std::string why_no_volume(const Topology& topology) {
 
 }  // namespace
 
+double surface_area(const TriangleMesh& mesh) {
+  double doubled = 0;
+  for (const auto& [a, b, c] : mesh.triangles) doubled += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  return doubled / 2;
+}
+
 Extent measure_extent(const TriangleMesh& mesh, const Topology& topology, std::vector<std::string>& notes) {
   Extent extent;
   if (!has_finite_triangles(mesh)) {
     notes.push_back("area, volume: a triangle has a corner that is not finite");
     return extent;
   }
-  extent.area = area_of(mesh);
+  extent.area = surface_area(mesh);
   if (const std::string why = why_no_volume(topology); why.empty())
     extent.volume = volume_of(mesh);
   else

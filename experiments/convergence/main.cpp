@@ -15,7 +15,6 @@
 #include "experiments/convergence/study_markdown.h"
 #include "experiments/study_program.h"
 #include "smopt/error.h"
-#include "smopt/io/file.h"
 
 namespace smopt::experiments {
 namespace {
@@ -86,13 +85,7 @@ void run(const Arguments& arguments) {
   for (const Dataset& dataset : chosen_datasets(arguments))
     studies.push_back(study_molecule(dataset, arguments.study, [](const std::string& what) { fmt::print(stderr, "{}\n", what); }));
   const std::string page = study_markdown(studies, command_of(arguments));
-  if (arguments.output.empty()) {
-    fmt::print("{}", page);
-    return;
-  }
-  std::filesystem::create_directories(arguments.output);
-  write_file(arguments.output / "generator.md", page);
-  write_file(arguments.output / "generator.json", study_json(studies).dump(1) + "\n");
+  write_study(arguments.output, "generator", page, study_json(studies).dump(1) + "\n");
 }
 
 int main_of(int argc, char** argv) {

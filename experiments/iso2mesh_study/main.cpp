@@ -13,7 +13,6 @@
 #include "experiments/study_program.h"
 #include "experiments/surface_stage.h"
 #include "smopt/improve/prepare.h"
-#include "smopt/io/file.h"
 
 namespace smopt::experiments {
 namespace {
@@ -64,12 +63,7 @@ void run(const Arguments& arguments) {
   for (const Dataset& dataset : find_datasets(all_datasets(), arguments.molecules))
     studies.push_back(study_molecule(dataset, arguments.grid));
   const std::string page = study_markdown(studies, command_of(arguments));
-  if (arguments.output.empty()) {
-    fmt::print("{}", page);
-    return;
-  }
-  std::filesystem::create_directories(arguments.output);
-  write_file(arguments.output / "iso2mesh.md", page);
+  write_study(arguments.output, "iso2mesh", page);
 }
 
 int main_of(int argc, char** argv) {

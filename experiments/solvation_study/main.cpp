@@ -10,7 +10,6 @@
 #include "experiments/solvation_study/study_json.h"
 #include "experiments/solvation_study/study_markdown.h"
 #include "experiments/study_program.h"
-#include "smopt/io/file.h"
 
 namespace smopt::experiments {
 namespace {
@@ -75,13 +74,7 @@ void run(const Arguments& arguments) {
   for (const Dataset& dataset : refined) study.refinements.push_back(study_refinement(dataset, arguments.study, log));
   for (const Dataset& dataset : compared) study.comparisons.push_back(compare_meshes(dataset, arguments.study, log));
   const std::string page = study_markdown(study, command_of(arguments));
-  if (arguments.output.empty()) {
-    fmt::print("{}", page);
-    return;
-  }
-  std::filesystem::create_directories(arguments.output);
-  write_file(arguments.output / "solvation.md", page);
-  write_file(arguments.output / "solvation.json", study_json(study).dump(1) + "\n");
+  write_study(arguments.output, "solvation", page, study_json(study).dump(1) + "\n");
 }
 
 int main_of(int argc, char** argv) {

@@ -55,12 +55,6 @@ NodePatch patch_of(const TriangleMesh& mesh, const VertexStars& stars, VertexId 
 
 }  // namespace
 
-double area_of(const TriangleMesh& mesh) {
-  double doubled = 0;
-  for (const Triangle& t : mesh.triangles) doubled += doubled_area_vector(mesh, t).norm();
-  return doubled / 2;
-}
-
 std::vector<NodePatch> node_patches(const TriangleMesh& mesh, const VertexStars& stars) {
   std::vector<NodePatch> patches(mesh.vertex_count());
   for (VertexId v = 0; v < patches.size(); ++v) patches[v] = patch_of(mesh, stars, v);

@@ -20,9 +20,6 @@ struct NodePatch {
 /// \pre closed, oriented, each vertex in a triangle. Cost: O(n).
 std::vector<NodePatch> node_patches(const TriangleMesh& mesh, const VertexStars& stars);
 
-/// Of all triangles, Å². Cost: O(n).
-double area_of(const TriangleMesh& mesh);
-
 /// Triangles with no more than twice this area, Å², do not count for AFMPB's normals.
 inline constexpr double kLeastDoubledArea = 1e-8;
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "metrics/extent.h"
 #include "smopt/error.h"
 #include "smopt/mesh/compact.h"
 #include "smopt/mesh/components.h"
@@ -27,7 +28,7 @@ void require_solvable(const TriangleMesh& mesh) {
 constexpr double kLeastVolumeRel = 1e-12;
 
 void require_volume(const TriangleMesh& mesh) {
-  const double area = area_of(mesh);
+  const double area = surface_area(mesh);
   if (!(signed_volume(mesh) > kLeastVolumeRel * area * std::sqrt(area))) throw InvalidMesh("the surface encloses no volume");
 }
 

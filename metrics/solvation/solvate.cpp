@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "metrics/extent.h"
 #include "metrics/solvation/boundary_operator.h"
 #include "metrics/solvation/charge_sums.h"
 #include "metrics/solvation/charges_outside.h"
@@ -156,7 +157,7 @@ Solvation solvate(const TriangleMesh& mesh, const Molecule& molecule, const Solv
   const double bytes = predicted_solvation_bytes(surface.surface, molecule, options);
   require_memory(bytes, options);
   result.predicted_memory_mb = bytes / kBytesPerMb;
-  result.area = area_of(surface.surface.mesh);
+  result.area = surface_area(surface.surface.mesh);
   result.volume = signed_volume(surface.surface.mesh);
   result.nonpolar = options.surface_tension * result.area + options.pressure * result.volume;
   for (const VertexId v : degenerate_vertices(surface.surface.mesh, surface.surface.stars))
