@@ -12,6 +12,7 @@
 #include "metrics/degenerate.h"
 #include "metrics/extent.h"
 #include "metrics/finite.h"
+#include "metrics/surface_samples.h"
 
 namespace smopt::metrics {
 namespace {
@@ -19,10 +20,6 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
-
-/// Steps of the two-dimensional R₂ sequence: 1/ρ and 1/ρ² for the real root ρ of x³ = x + 1 (Roberts 2018); spreads evenly for any count.
-constexpr double kR2StepU = 0.7548776662466927;
-constexpr double kR2StepV = 0.5698402909980532;
 
 Kernel::Point_3 to_cgal(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
@@ -53,33 +50,6 @@ class NearestPoint {
   Tree tree_;
 };
 
-double triangle_area(const TriangleMesh& mesh, const Triangle& t) {
-  return 0.5 * (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm();
-}
-
-/// The `k`-th point of a sequence that fills a triangle evenly.
-Vec3 point_in_triangle(const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
-  double ignored = 0;
-  const double u = std::sqrt(std::modf((static_cast<double>(k) + 0.5) * kR2StepU, &ignored));
-  const double v = std::modf((static_cast<double>(k) + 0.5) * kR2StepV, &ignored);
-  return (1 - u) * mesh.points[t[0]] + u * (1 - v) * mesh.points[t[1]] + u * v * mesh.points[t[2]];
-}
-
-/// `count` points, each standing for an equal part of the area, in the order of the triangles.
-std::vector<Vec3> sample_by_area(const TriangleMesh& mesh, std::size_t count) {
-  const double step = surface_area(mesh) / static_cast<double>(count);
-  std::vector<Vec3> samples;
-  samples.reserve(count);
-  std::size_t f = 0;
-  double area_up_to_f = triangle_area(mesh, mesh.triangles[0]);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double target = (static_cast<double>(k) + 0.5) * step;
-    while (area_up_to_f < target && f + 1 < mesh.triangle_count()) area_up_to_f += triangle_area(mesh, mesh.triangles[++f]);
-    samples.push_back(point_in_triangle(mesh, mesh.triangles[f], k));
-  }
-  return samples;
-}
-
 std::vector<Vec3> vertices_in_use(const TriangleMesh& mesh) {
   std::vector<bool> used(mesh.vertex_count(), false);
   for (const Triangle& t : mesh.triangles)
@@ -97,7 +67,7 @@ std::vector<double> distances(const std::vector<Vec3>& points, const NearestPoin
 }
 
 OneSidedDistance one_sided(const TriangleMesh& from, const NearestPoint& to, std::size_t samples) {
-  const std::vector<double> at_samples = distances(sample_by_area(from, samples), to);
+  const std::vector<double> at_samples = distances(sample_surface(from, samples), to);
   const std::vector<double> at_vertices = distances(vertices_in_use(from), to);
   OneSidedDistance result;
   for (const double d : at_samples) {
