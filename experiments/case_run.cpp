@@ -4,9 +4,9 @@
 
 #include "experiments/improve_run.h"
 #include "experiments/machine.h"
+#include "experiments/tetgen_run.h"
 #include "metrics/measure.h"
 #include "metrics/measurement_json.h"
-#include "metrics/tetgen/tetrahedralize.h"
 #include "smopt/error.h"
 #include "smopt/improve/prepare.h"
 #include "smopt/io/off.h"
@@ -46,17 +46,6 @@ Json mesh_json(const JudgedMesh& judged) {
           {"sha256", judged.sha256}};
 }
 
-Json tetgen_json(const TriangleMesh& mesh, const std::string& switches, const ProgressCallback& progress) {
-  metrics::TetrahedralizeOptions options;
-  options.switches = switches;
-  options.progress = progress;
-  try {
-    return metrics::to_json(metrics::tetrahedralize(mesh, options));
-  } catch (const InvalidInput& error) {
-    return {{"status", "failed"}, {"reason", error.what()}, {"switches", switches}};
-  }
-}
-
 void add_meshes(Json& record, const JudgedMesh& before, const JudgedMesh& after) {
   record["input"] = mesh_json(before);
   record["output"] = mesh_json(after);
@@ -76,6 +65,21 @@ JudgedMesh prepare_input(const TriangleMesh& initial) {
   TriangleMesh mesh = initial;
   prepare(mesh, CavityPolicy::delete_cavities);
   return judge(std::move(mesh));
+}
+
+void record_outcome(Json& record, const std::function<void()>& fill) {
+  try {
+    fill();
+    mark_done(record);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const NotInstalled& error) {
+    mark_not_installed(record, error.what());
+  } catch (const std::bad_alloc&) {
+    mark_failed(record, "out of memory");
+  } catch (const std::exception& error) {
+    mark_failed(record, error.what());
+  }
 }
 
 void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface) {
@@ -114,8 +118,7 @@ TriangleMesh run_method_case(Json& record, const Method& method, const OptionVal
 
 void add_simulations(Json& record, const TriangleMesh& mesh, const Molecule& molecule, const SolvationPlan& solvation,
                      const ProgressCallback& progress) {
-  record["tetgen"] = Json::object();
-  for (const char* switches : {"p", "pY"}) record["tetgen"][switches] = tetgen_json(mesh, switches, progress);
+  record["tetgen"] = tetgen_of(mesh, tetgen_trials(record.at("method").get<std::string>()), progress);
   record["solvation"] = solvation_of(mesh, molecule, solvation, progress);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string>
 
 #include "experiments/record.h"
@@ -23,6 +23,9 @@ JudgedMesh judge(TriangleMesh mesh);
 
 /// The mesh that the methods get: the initial one, checked, oriented and without its cavities. \throws InvalidMesh
 JudgedMesh prepare_input(const TriangleMesh& initial);
+
+/// Runs what fills a record and marks it with what became of that: done, or the reason in what was thrown. \throws Cancelled alone.
+void record_outcome(Json& record, const std::function<void()>& fill);
 
 /// Fills the record of the mesh as it was generated: its metrics (before and after are the same).
 void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface);

@@ -21,6 +21,7 @@ MethodCase parse_case(const Json& json) {
   result.options = json.value("options", result.options);
   result.vertices_of = json.value("vertices_of", "");
   result.is_in_paper_tables = json.value("is_in_paper_tables", false);
+  result.is_ablation = json.value("is_ablation", false);
   return result;
 }
 

@@ -10,6 +10,10 @@ namespace smopt::experiments {
 /// The pseudo-method: the mesh as it was generated.
 inline constexpr std::string_view kInitial = "initial";
 
+/// The cases of this project's own methods.
+inline constexpr std::string_view kSmopt = "smopt";
+inline constexpr std::string_view kSmopt2 = "smopt2";
+
 /// A method as the experiments run it: with which options, and what it is called.
 struct MethodCase {
   std::string name;                            ///< as on the command line and in file names
@@ -18,6 +22,7 @@ struct MethodCase {
   std::map<std::string, std::string> options;  ///< those that are not the method's defaults
   std::string vertices_of;                     ///< the case as many vertices as whose result are asked for; empty: none is
   bool is_in_paper_tables = false;             ///< shown in Table 3 and Figures 5 to 7, which are the paper's
+  bool is_ablation = false;                    ///< run when it is named, not with "all": a method with a part of it left out
 };
 
 /// The cases of methods.json, in its order, which is that of tables and figures.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "experiments/case_run.h"
+#include "experiments/level_set_run.h"
 #include "experiments/record.h"
 #include "experiments/record_set.h"
 #include "smopt/error.h"
@@ -63,6 +64,13 @@ class SharedMeshes {
   const JudgedMesh& input() {
     return remembered(input_, [&] { return prepare_input(surface().mesh); });
   }
+  const LevelSet& level_set() {
+    return remembered(level_set_, [&] { return LevelSet(surface().molecule, dataset_.surface); });
+  }
+  /// Of the mesh that the methods get.
+  const Json& distance_of_input() {
+    return remembered(distance_of_input_, [&] { return to_json(level_set().distance(input().mesh)); });
+  }
   /// How many vertices the result of a case has.
   std::size_t vertices_of(const std::string& name, const MethodRegistry& registry) {
     return remembered(vertices_[name], [&] {
@@ -102,6 +110,8 @@ class SharedMeshes {
   Remembered<GeneratedSurface> surface_;
   Remembered<JudgedMesh> initial_;
   Remembered<JudgedMesh> input_;
+  Remembered<LevelSet> level_set_;
+  Remembered<Json> distance_of_input_;
   std::map<std::string, Remembered<std::size_t>> vertices_;
 };
 
@@ -133,11 +143,18 @@ void keep_mesh(const RunOptions& options, const Dataset& dataset, std::string_vi
   write_mesh(path, mesh);
 }
 
+/// How far the case's mesh is from the level set, and how far what it was made of is; of the mesh as generated the two are the same.
+void add_level_set_distance(Json& record, const TriangleMesh& mesh, std::string_view method, SharedMeshes& meshes) {
+  const Json after = to_json(meshes.level_set().distance(mesh));
+  record["level_set_distance"] = {{"before", method == kInitial ? after : meshes.distance_of_input()}, {"after", after}};
+}
+
 /// Fills the record of one case as far as it gets. \throws what it fails of.
 void run_case(Json& record, const RunOptions& options, const MethodRegistry& registry, const Dataset& dataset, const std::string& method,
               SharedMeshes& meshes, const ProgressCallback& progress) {
   add_surface(record, meshes.surface());
   const auto simulate = [&](const TriangleMesh& mesh) {
+    add_level_set_distance(record, mesh, method, meshes);
     add_simulations(record, mesh, meshes.surface().molecule, solvation_plan(dataset, method, options.solvation), progress);
   };
   if (method == kInitial) {
@@ -160,18 +177,7 @@ void run_case(Json& record, const RunOptions& options, const MethodRegistry& reg
 Json record_case(const RunOptions& options, const MethodRegistry& registry, const Dataset& dataset, const std::string& method,
                  SharedMeshes& meshes, const ProgressCallback& progress) {
   Json record = record_header(dataset, method);
-  try {
-    run_case(record, options, registry, dataset, method, meshes, progress);
-    mark_done(record);
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const NotInstalled& error) {
-    mark_not_installed(record, error.what());
-  } catch (const std::bad_alloc&) {
-    mark_failed(record, "out of memory");
-  } catch (const std::exception& error) {
-    mark_failed(record, error.what());
-  }
+  record_outcome(record, [&] { run_case(record, options, registry, dataset, method, meshes, progress); });
   return record;
 }
 

@@ -16,7 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kSmopt = "smopt";
 constexpr double kBytesPerMb = 1 << 20;
 
 Json without_energy(std::string_view status, std::string_view reason) {

@@ -30,7 +30,9 @@ void draw_figures(const RecordSet& records, const std::filesystem::path& directo
                                             "--molecules",
                                             fmt::format("{}", fmt::join(records.molecules(), ",")),
                                             "--methods",
-                                            fmt::format("{}", fmt::join(paper_methods(records), ","))};
+                                            fmt::format("{}", fmt::join(paper_methods(records), ",")),
+                                            "--compared",
+                                            fmt::format("{}", fmt::join(records.methods(), ","))};
   if (!std::filesystem::exists(command.front()))
     throw InvalidInput(fmt::format("figures: {} does not exist (Debian package python3-matplotlib; or set SMOPT_PYTHON)", command.front()));
   const ProcessOutcome outcome = run_process(command, {kTimeLimitSeconds, 0}, "figures", progress);

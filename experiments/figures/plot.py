@@ -1,9 +1,10 @@
-"""Figures 5, 6 and 7 of Liu et al. 2017 (PLoS ONE 12(9): e0184206), from the records of a run and nothing else.
+"""Figures 5, 6 and 7 of Liu et al. 2017 (PLoS ONE 12(9): e0184206), and one of all methods, from the records of a run and nothing else.
 
-plot.py DIR [--molecules A,B] [--methods A,B] [--dump FILE]
+plot.py DIR [--molecules A,B] [--methods A,B] [--compared A,B] [--dump FILE]
 
-Reads DIR/records/<molecule>/<method>.json and writes DIR/figures/fig{5,6,7}.{svg,png}; the same bytes for the same records. With --dump the
-bars that were drawn are written to FILE as JSON: {"fig6": [{"row": 0, "column": 0, "bars": [[left, width, height], ...]}, ...], ...}.
+Reads DIR/records/<molecule>/<method>.json and writes DIR/figures/{fig5,fig6,fig7,methods}.{svg,png}; the same bytes for the same records.
+With --dump what was drawn is written to FILE as JSON: {"fig6": [{"row": 0, "column": 0, "bars": [[left, width, height], ...], "points": {}},
+...], "methods": [{"row": 0, "column": 0, "bars": [], "points": {"molecule": [[x, y], ...], ...}}, ...]}.
 """
 
 import argparse
@@ -35,6 +36,7 @@ MESSAGE_WIDTH = 34  # characters a line of a failure's reason in a panel
 MESSAGE_LINES = 8
 
 THOUSANDS = matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}"))
+PLAIN = matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}")
 
 
 def set_style():
@@ -78,10 +80,12 @@ def why_no_bar(record):
 class Run:
     """The records with the order in which molecules and methods are shown."""
 
-    def __init__(self, records, molecules, methods):
+    def __init__(self, records, molecules, methods, compared):
         self.records = records
         self.molecules = molecules or sorted({molecule for molecule, _ in records})
         self.methods = methods or sorted({method for _, method in records}, key=lambda name: (name != "initial", name != "smopt", name))
+
+        self.compared = compared or sorted({method for _, method in records}, key=lambda name: (name != "initial", name != "smopt", name))
 
     def record(self, molecule, method):
         return self.records.get((molecule, method))
@@ -208,17 +212,138 @@ def figure7(run):
     return histogram_figure(run, "angle_deg", "angle (°)", (0, 180), [0, 30, 60, 90, 120, 150, 180], "angles per 2°")
 
 
-FIGURES = {"fig5": figure5, "fig6": figure6, "fig7": figure7}
+def level_set_ratio(record):
+    before, after = (number(record, "level_set_distance", when, "mean") for when in ("before", "after"))
+    return after / before if before and after is not None else None
 
 
-def bars_of(figure):
-    """Every bar as it was drawn: left edge, width, height."""
+def method_seconds(record):
+    """Processor seconds of the method itself, without what comes before any; None for the mesh as generated."""
+    if record["method"] == "initial" or number(record, "cpu_seconds", "smoothing") is None:
+        return None
+    return sum(number(record, "cpu_seconds", stage) or 0 for stage in ("redundant", "resampling", "smoothing"))
+
+
+def percentage_below_30(record):
+    share = number(record, "metrics", "after", "min_angle_share", "below_30")
+    return None if share is None else 100 * share
+
+
+# Title, what is shown of a record, kind of axis, and where the better end is.
+COMPARED = [
+    ("smallest angle (°)", lambda record: number(record, "metrics", "after", "angle_deg", "min"), "linear", "right"),
+    ("smallest angle < 30°\n(% of triangles)", percentage_below_30, "symlog", "left"),
+    ("mean distance to the\nlevel set (× before)", level_set_ratio, "log", "left"),
+    ("intersecting pairs", lambda record: number(record, "metrics", "after", "intersecting_pairs"), "symlog", "left"),
+    ("processor time (s)", method_seconds, "log", "left"),
+]
+LINEAR_TO = {1: 0.1, 3: 1}  # where a symlog axis becomes linear: a tenth of a per cent, one pair
+MARKERS = ["o", "s", "^", "D", "v", "P"]
+MOLECULE_COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+ROW_SHARE = 0.62  # of a method's row over which its molecules are spread
+OWN_METHODS = ("smopt", "smopt2")
+LEGEND_INCHES = 0.4
+
+
+def offset_of(index, count):
+    """Within a method's row, so that the molecules' markers do not hide each other."""
+    return 0 if count < 2 else ROW_SHARE * (index / (count - 1) - 0.5)
+
+
+def why_no_point(record):
+    """In a word, beside the row's left end."""
+    if record is None:
+        return ""
+    if record["status"] != "done":
+        return record["status"]
+    return "diverged" if number(record, "diverged_at_step") else ""
+
+
+def shown_value(record, value_of, scale):
+    """None where the case failed, the method diverged, or a logarithmic axis has no place for the value."""
+    value = value_of(record) if is_done(record) and not number(record, "diverged_at_step") else None
+    return None if scale == "log" and value == 0 else value
+
+
+def draw_compared_points(axes, run, value_of, scale):
+    for index, molecule in enumerate(run.molecules):
+        points = []
+        for row, method in enumerate(run.compared):
+            value = shown_value(run.record(molecule, method), value_of, scale)
+            if value is not None:
+                points.append((value, row + offset_of(index, len(run.molecules))))
+        axes.plot([x for x, _ in points], [y for _, y in points], linestyle="none", marker=MARKERS[index % len(MARKERS)], markersize=5,
+                  markeredgecolor="black", markeredgewidth=0.5, color=MOLECULE_COLOURS[index % len(MOLECULE_COLOURS)], clip_on=False,
+                  zorder=3, label=run.molecule_title(molecule), gid=molecule)
+
+
+def label_decades(axes):
+    """Plain numbers on a logarithmic axis; between the decades, too, where there are few of them."""
+    low, high = axes.get_xlim()
+    is_short = high < 40 * low
+    axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5) if is_short else (1,)))
+    axes.xaxis.set_major_formatter(PLAIN)
+    axes.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+
+
+def style_compared_axes(axes, column, run):
+    title, _, scale, better = COMPARED[column]
+    if scale == "symlog":
+        axes.set_xscale("symlog", linthresh=LINEAR_TO[column])
+        axes.xaxis.set_major_formatter(PLAIN)
+        axes.set_xlim(left=0)
+    elif scale == "log" and any(len(line.get_xdata()) for line in axes.lines):
+        axes.set_xscale("log")
+        label_decades(axes)
+    elif scale == "linear":
+        axes.set_xlim(0, 60)  # an equilateral triangle's
+        axes.set_xticks([0, 15, 30, 45, 60])
+    axes.tick_params(axis="y", length=0)
+    axes.set_title(title, fontsize=10)
+    axes.set_xlabel("better \N{RIGHTWARDS ARROW}" if better == "right" else "\N{LEFTWARDS ARROW} better", fontsize=8)
+    axes.grid(axis="x", color="#dddddd", linewidth=0.6, zorder=0)
+    for row in range(0, len(run.compared), 2):
+        axes.axhspan(row - 0.5, row + 0.5, color="#f4f4f4", zorder=0, linewidth=0)
+    axes.set_ylim(len(run.compared) - 0.5, -0.5)
+
+
+def tell_missing(axes, run):
+    """In the first panel, where a method has no result on a molecule."""
+    for row, method in enumerate(run.compared):
+        reasons = {why_no_point(run.record(molecule, method)) for molecule in run.molecules} - {""}
+        if reasons:
+            axes.annotate(", ".join(sorted(reasons)), (1, row), xycoords=("axes fraction", "data"), xytext=(-2, 0),
+                          textcoords="offset points", ha="right", va="center", fontsize=8, style="italic")
+
+
+def methods_figure(run):
+    height = max(3.0, 0.34 * len(run.compared) + 1.6)
+    figure, panels = plt.subplots(1, len(COMPARED), figsize=(13.0, height), squeeze=False, sharey=True, layout="constrained")
+    for column, axes in enumerate(panels[0]):
+        draw_compared_points(axes, run, *COMPARED[column][1:3])
+        style_compared_axes(axes, column, run)
+    first = panels[0][0]
+    tell_missing(first, run)
+    first.set_yticks(range(len(run.compared)), [run.method_title(method) for method in run.compared])
+    for label, method in zip(first.get_yticklabels(), run.compared):
+        label.set_fontweight("bold" if method in OWN_METHODS else "normal")
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - LEGEND_INCHES / height))
+    figure.legend(*first.get_legend_handles_labels(), loc="upper center", ncols=min(6, max(1, len(run.molecules))), frameon=False)
+    return figure
+
+
+FIGURES = {"fig5": figure5, "fig6": figure6, "fig7": figure7, "methods": methods_figure}
+
+
+def drawn_in(figure):
+    """Every bar as it was drawn (left edge, width, height), and the points of each molecule."""
     panels = []
     for axes in figure.axes:
         spec = axes.get_subplotspec()
         patches = [patch for container in axes.containers for patch in container.patches]
         bars = [[float(patch.get_x()), float(patch.get_width()), float(patch.get_height())] for patch in patches]
-        panels.append({"row": spec.rowspan.start, "column": spec.colspan.start, "bars": bars})
+        points = {line.get_gid(): [[float(x), float(y)] for x, y in zip(*line.get_data())] for line in axes.lines}
+        panels.append({"row": spec.rowspan.start, "column": spec.colspan.start, "bars": bars, "points": points})
     return panels
 
 
@@ -230,11 +355,12 @@ def save(figure, folder, name):
 
 def parse_arguments():
     names = lambda text: [name for name in text.split(",") if name]  # noqa: E731
-    parser = argparse.ArgumentParser(description="Figures 5, 6 and 7 from the records of a run.")
+    parser = argparse.ArgumentParser(description="Figures 5, 6 and 7, and that of all methods, from the records of a run.")
     parser.add_argument("directory", type=pathlib.Path)
     parser.add_argument("--molecules", type=names, default=[], help="their order; by name if not given")
     parser.add_argument("--methods", type=names, default=[], help="their order; initial, smopt, then by name if not given")
-    parser.add_argument("--dump", type=pathlib.Path, help="write the bars that were drawn to this file")
+    parser.add_argument("--compared", type=names, default=[], help="the methods of the figure of all methods, in their order; all if not given")
+    parser.add_argument("--dump", type=pathlib.Path, help="write what was drawn to this file")
     return parser.parse_args()
 
 
@@ -244,13 +370,13 @@ def main():
     if not records:
         sys.exit(f"{arguments.directory / 'records'}: no records")
     set_style()
-    run = Run(records, arguments.molecules, arguments.methods)
+    run = Run(records, arguments.molecules, arguments.methods, arguments.compared)
     folder = arguments.directory / "figures"
     folder.mkdir(parents=True, exist_ok=True)
     drawn = {}
     for name, draw in FIGURES.items():
         figure = draw(run)
-        drawn[name] = bars_of(figure)
+        drawn[name] = drawn_in(figure)
         save(figure, folder, name)
     if arguments.dump:
         arguments.dump.write_text(json.dumps(drawn), encoding="utf-8")

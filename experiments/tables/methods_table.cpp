@@ -4,6 +4,7 @@
 
 #include "experiments/method_cases.h"
 #include "experiments/tables/molecule_table.h"
+#include "experiments/tetgen_run.h"
 
 namespace smopt::experiments {
 namespace {
@@ -39,6 +40,12 @@ CaseColumn change_column(std::string id, std::string title, const std::string& q
           }};
 }
 
+/// The mean distance to the level set, as a multiple of that of the mesh that the method was given.
+Cell level_set_ratio(const Json& record) {
+  const auto before = number_at(&record, "/level_set_distance/before/mean"), after = number_at(&record, "/level_set_distance/after/mean");
+  return before && after && *before > 0 ? Cell(Decimal{*after / *before, 2}) : Cell();
+}
+
 /// Of all that is the method's own: without the validity and the cavities, which come before any. Nothing for the mesh as generated.
 Cell method_seconds(const Json& record) {
   const auto smoothing = number_at(&record, "/cpu_seconds/smoothing");
@@ -66,13 +73,18 @@ std::vector<CaseColumn> case_columns() {
       count_column("vertices", "Vertices", "/metrics/after/vertices"),
       count_column("intersecting_pairs", "Intersecting pairs", "/metrics/after/intersecting_pairs"),
       number_column("min_angle_deg", "Smallest angle (°)", "/metrics/after/angle_deg/min", 1, 3),
+      number_column("max_angle_deg", "Largest angle (°)", "/metrics/after/angle_deg/max", 1, 2),
       number_column("below_10_percent", "Smallest angle < 10° (%)", "/metrics/after/min_angle_share/below_10", kPerCent, 2),
       number_column("below_30_percent", "< 30° (%)", "/metrics/after/min_angle_share/below_30", kPerCent, 2),
       number_column("edge_ratio_below_0.1_percent", "Edge ratio < 0.1 (%)", "/metrics/after/edge_ratio/below_0.1", kPerCent, 2),
+      number_column("valence_5_6_7_percent", "Valence 5–7 (%)", "/metrics/after/valence/share_5_6_7", kPerCent, 2),
       change_column("area_change_percent", "Area (%)", "area"),
       change_column("volume_change_percent", "Volume (%)", "volume"),
+      number_column("level_set_distance_mean_A", "Mean distance to the level set (Å)", "/level_set_distance/after/mean", 1, 4),
+      {{"level_set_distance_ratio", "× before"}, level_set_ratio},
       tetgen_column("p"),
       tetgen_column("pY"),
+      tetgen_column(kQualitySwitches),
       {{"cpu_s_method", "CPU (s)"}, method_seconds},
       {{"ended", "Ended"}, ending},
   };
@@ -95,8 +107,10 @@ Table methods_table(const RecordSet& records) {
     }
   }
   table.notes.push_back(
-      "Every method was given the initial mesh without its cavities; area and volume are changes against that mesh. Pairs are counted by "
-      "CGAL's exact predicates. CPU seconds are the method's own on one thread, without validity and cavities, which come before any. "
+      "Every method was given the initial mesh without its cavities; area and volume are changes against that mesh, and the distance to "
+      "the "
+      "level set of the molecule's field (over the area, not over the vertices) is held against its. Pairs are counted by CGAL's exact "
+      "predicates. CPU seconds are the method's own on one thread, without validity and cavities, which come before any. "
       "\"—\" "
       "where there is no such number (coordinates that are not finite, a case that failed).");
   return table;

@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
-constexpr double kTimeLimitSeconds = 300;  // three figures take seconds; a busy machine may need more
-constexpr const char* kFigures[] = {"fig5", "fig6", "fig7"};
+constexpr double kTimeLimitSeconds = 300;  // four figures take seconds; a busy machine may need more
+constexpr const char* kFigures[] = {"fig5", "fig6", "fig7", "methods"};
 
 void save(const std::filesystem::path& directory, const Json& record) {
   const auto path = record_path(directory, record.at("molecule").at("name").get<std::string>(), record.at("method").get<std::string>());
@@ -31,12 +31,22 @@ void save(const std::filesystem::path& directory, const Json& record) {
   std::ofstream(path) << record.dump();
 }
 
+/// A case with what the figure of all methods shows.
+Json compared_record(const Dataset& dataset, const char* method) {
+  Json record = testing::made_record(dataset, method);
+  record["metrics"]["after"]["angle_deg"]["min"] = 12.5;
+  record["metrics"]["after"]["min_angle_share"] = {{"below_30", 0.25}};
+  record["level_set_distance"] = {{"before", {{"mean", 0.02}}}, {"after", {{"mean", 0.03}}}};
+  testing::set_cpu_seconds(record, {{1, 2, 3, 4}});
+  return record;
+}
+
 /// Two molecules, one a stand-in, with four methods; one case failed, one diverged, two were not run.
 void save_run(const std::filesystem::path& directory) {
   const Dataset ache = testing::ache_monomer();
   const Dataset stand_in = testing::made_dataset("capsid", Role::stand_in);
-  for (const char* method : {"initial", "smopt", "laplacian"}) save(directory, testing::made_record(ache, method));
-  Json diverged = testing::made_record(ache, "meshlab");
+  for (const char* method : {"initial", "smopt", "laplacian"}) save(directory, compared_record(ache, method));
+  Json diverged = compared_record(ache, "meshlab");
   diverged["diverged_at_step"] = 7;
   save(directory, diverged);
   save(directory, testing::made_record(stand_in, "initial"));
@@ -55,7 +65,7 @@ Json drawn_bars(const std::filesystem::path& directory) {
 
 const Json& panel(const Json& figure, int row, int column) {
   for (const Json& candidate : figure)
-    if (candidate.at("row") == row && candidate.at("column") == column) return candidate.at("bars");
+    if (candidate.at("row") == row && candidate.at("column") == column) return candidate;
   throw std::runtime_error("no such panel");
 }
 
@@ -73,7 +83,9 @@ class DrawnFigures : public ::testing::Test {
     second_.reset();
   }
 
-  static const Json& bars(const char* figure, int row, int column) { return panel(bars_.at(figure), row, column); }
+  static const Json& bars(const char* figure, int row, int column) { return panel(bars_.at(figure), row, column).at("bars"); }
+  /// Of a molecule in a panel of the figure of all methods: [value, row of the method].
+  static const Json& points(int column, const char* molecule) { return panel(bars_.at("methods"), 0, column).at("points").at(molecule); }
 
   inline static std::optional<TemporaryFolder> first_;
   inline static std::optional<TemporaryFolder> second_;
@@ -118,6 +130,27 @@ TEST_F(DrawnFigures, Figure5ShowsTheInitialMeshWithAndWithoutCavitiesBesideEachM
   };
   EXPECT_THAT(heights(0), ::testing::ElementsAre(290, 290, 300.5, 0, 290, 0, 290, 0, 0, 0));
   EXPECT_THAT(heights(1), ::testing::ElementsAre(880, 880, 900.25, 0, 880, 0, 880, 0, 0, 0));
+}
+
+TEST_F(DrawnFigures, TheFigureOfAllMethodsHasAPointForEachMethodThatHasTheNumber) {
+  // Rows: initial, SMOPT, plain Laplacian, MeshLab. MeshLab has diverged, and the mesh as generated took no method's time.
+  const auto values = [](int column, const char* molecule) {
+    std::vector<double> list;
+    for (const Json& point : points(column, molecule)) list.push_back(point[0].get<double>());
+    return list;
+  };
+  EXPECT_THAT(values(0, "ache-monomer"), ::testing::ElementsAre(12.5, 12.5, 12.5));
+  EXPECT_THAT(values(1, "ache-monomer"), ::testing::ElementsAre(25, 25, 25));
+  EXPECT_THAT(values(2, "ache-monomer"), ::testing::Each(::testing::DoubleEq(1.5)));
+  EXPECT_THAT(values(3, "ache-monomer"), ::testing::ElementsAre(7, 7, 7));
+  EXPECT_THAT(values(4, "ache-monomer"), ::testing::ElementsAre(7, 7)) << "redundant points and smoothing";
+  EXPECT_THAT(values(0, "capsid"), ::testing::IsEmpty()) << "its records have no such number, or failed";
+  EXPECT_EQ(points(3, "capsid").size(), 1U);
+}
+
+TEST_F(DrawnFigures, TheFigureOfAllMethodsPutsAMethodsPointsInItsRow) {
+  for (int row = 0; row < 3; ++row) EXPECT_NEAR(points(0, "ache-monomer")[static_cast<std::size_t>(row)][1].get<double>(), row, 0.5);
+  EXPECT_NE(points(3, "ache-monomer")[0][1], points(3, "capsid")[0][1]) << "or one would hide the other";
 }
 
 /// Sets an environment variable until the end of the scope.

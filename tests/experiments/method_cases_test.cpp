@@ -53,12 +53,13 @@ TEST(MethodCases, ANameThatIsNotListedIsTheMethodWithItsDefaults) {
 
 TEST(MethodCases, AreReadWithTheirOptions) {
   const auto cases = parse_method_cases(
-      R"({"cases": [{"name": "a", "title": "A", "method": "b", "vertices_of": "c", "options": {"rounds": "3"}}, {"name": "d", "title": "D"}]})");
+      R"({"cases": [{"name": "a", "title": "A", "method": "b", "vertices_of": "c", "options": {"rounds": "3"}}, {"name": "d", "title": "D", "is_ablation": true}]})");
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_EQ(cases[0].method, "b");
   EXPECT_EQ(cases[0].vertices_of, "c");
   EXPECT_THAT(cases[0].options, UnorderedElementsAre(Pair("rounds", "3")));
   EXPECT_EQ(cases[1].method, "d");
+  EXPECT_TRUE(cases[1].is_ablation && !cases[0].is_ablation);
 }
 
 TEST(MethodCases, SayWhichEntryIsWrong) {

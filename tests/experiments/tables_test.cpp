@@ -104,6 +104,22 @@ TEST(Tables, TheTableOfMethodsGivesChangesAgainstTheMeshThatTheMethodsGot) {
   EXPECT_EQ(cell_of_method(table, "initial", "area_change_percent"), kDash) << "nothing was done to it";
 }
 
+TEST(Tables, TheTableOfMethodsShowsWhatASimulationAsksFor) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  list[1]["metrics"]["after"]["angle_deg"]["max"] = 123.456;
+  list[1]["metrics"]["after"]["valence"] = {{"share_5_6_7", 0.98765}};
+  list[1]["level_set_distance"] = {{"before", {{"mean", 0.02}}}, {"after", {{"mean", 0.05}}}};
+  list[1]["tetgen"]["pq1.4"] = {{"status", "success"}};
+  const Table table = methods_table(records_of(list));
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "max_angle_deg"), "123.46");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "valence_5_6_7_percent"), "98.77");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "level_set_distance_mean_A"), "0.0500");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "level_set_distance_ratio"), "2.50");
+  EXPECT_EQ(cell_of_method(table, "SMOPT", "tetgen_pq1.4"), "success");
+  for (const char* column : {"max_angle_deg", "valence_5_6_7_percent", "level_set_distance_ratio", "tetgen_pq1.4"})
+    EXPECT_EQ(cell_of_method(table, "plain Laplacian", column), kDash) << column;
+}
+
 TEST(Tables, EveryRowIsAsLongAsTheHead) {
   const RecordSet records = records_of(three_methods(ache_monomer()));
   for (const Table& table : {table1(records), table2(records), table3(records), methods_table(records)})
