@@ -81,7 +81,7 @@ std::vector<CaseColumn> case_columns() {
       change_column("area_change_percent", "Area (%)", "area"),
       change_column("volume_change_percent", "Volume (%)", "volume"),
       number_column("level_set_distance_mean_A", "Mean distance to the level set (Å)", "/level_set_distance/after/mean", 1, 4),
-      {{"level_set_distance_ratio", "× before"}, level_set_ratio},
+      {{"level_set_distance_ratio", "Level set (× before)"}, level_set_ratio},
       tetgen_column("p"),
       tetgen_column("pY"),
       tetgen_column(kQualitySwitches),
