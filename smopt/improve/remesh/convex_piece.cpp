@@ -1,6 +1,7 @@
 #include "smopt/improve/remesh/convex_piece.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace smopt {
@@ -94,14 +95,13 @@ double ConvexPiece::radius_around(const Vec3& point) const {
   return std::sqrt(radius2);
 }
 
-bool is_within(const ConvexPiece& piece, const Corners& triangle, double distance2) {
-  return std::all_of(piece.begin(), piece.end(),
-                     [&](const Vec3& p) { return (p - nearest_point_of_triangle(p, triangle)).squaredNorm() <= distance2; });
+bool is_within(const ConvexPiece& piece, const PointToTriangle& triangle, double distance2) {
+  return std::all_of(piece.begin(), piece.end(), [&](const Vec3& p) { return triangle.squared_distance(p) <= distance2; });
 }
 
-double farthest_squared(const ConvexPiece& piece, const Corners& triangle) {
+double farthest_squared(const ConvexPiece& piece, const PointToTriangle& triangle) {
   double farthest2 = 0;
-  for (const Vec3& p : piece) farthest2 = std::max(farthest2, (p - nearest_point_of_triangle(p, triangle)).squaredNorm());
+  for (const Vec3& p : piece) farthest2 = std::max(farthest2, triangle.squared_distance(p));
   return farthest2;
 }
 

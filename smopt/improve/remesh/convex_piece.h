@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "smopt/geometry/vec3.h"
-#include "smopt/improve/remesh/point_triangle.h"
+#include "smopt/improve/remesh/point_to_triangle.h"
 
 namespace smopt {
 
@@ -30,10 +30,10 @@ struct ConvexPiece {
 };
 
 /// Whether the piece is within a distance (given squared) of a triangle. No piece with a corner that is not finite is.
-bool is_within(const ConvexPiece& piece, const Corners& triangle, double distance2);
+bool is_within(const ConvexPiece& piece, const PointToTriangle& triangle, double distance2);
 
 /// The largest distance (squared) of the piece from a triangle.
-double farthest_squared(const ConvexPiece& piece, const Corners& triangle);
+double farthest_squared(const ConvexPiece& piece, const PointToTriangle& triangle);
 
 /// Cuts a piece in two so that both are easier to prove to be near triangles: where it reaches out sideways beyond `nearest`, along the plane
 /// through that edge square to the triangle, so that the first part is the one over the triangle; elsewhere in the middle of its longest extent.

@@ -46,24 +46,27 @@ class TriangleList {
  public:
   void clear() {
     triangles_.clear();
+    distances_.clear();
     boxes_.clear();
     whole_ = Box{};
   }
   void add(const Corners& t) {
     triangles_.push_back(t);
+    distances_.emplace_back(t);
     boxes_.push_back(box_of(t));
     whole_.unite(boxes_.back());
   }
   [[nodiscard]] const Corners& operator[](std::uint32_t place) const { return triangles_[place]; }
+  [[nodiscard]] const PointToTriangle& distance_to(std::uint32_t place) const { return distances_[place]; }
   [[nodiscard]] const Box& box() const { return whole_; }
 
   [[nodiscard]] NearestTriangle nearest_from(const Vec3& p, std::uint32_t place) const {
-    NearestTriangle nearest;
-    if (place != kNone) nearest = {place, (p - nearest_point_of_triangle(p, triangles_[place])).squaredNorm()};
     const Box point = point_box(p);
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    NearestTriangle nearest;
+    if (place != kNone) nearest = {place, distances_[place].squared_distance(p)};
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
       if (!(double{squared_distance_below(boxes_[i], point)} < nearest.squared_distance)) continue;
-      const double distance2 = (p - nearest_point_of_triangle(p, triangles_[i])).squaredNorm();
+      const double distance2 = distances_[i].squared_distance(p);
       if (distance2 < nearest.squared_distance) nearest = {i, distance2};
     }
     return nearest;
@@ -71,12 +74,13 @@ class TriangleList {
   /// A distance that none of them is nearer to p than.
   [[nodiscard]] double distance_below(const Vec3& p) const {
     double below = HUGE_VAL;
-    for (const Corners& t : triangles_) below = std::min(below, distance_at_least(p, t, nearest_point_of_triangle(p, t)));
+    for (const PointToTriangle& t : distances_) below = std::min(below, t.distance_below(p));
     return below;
   }
 
  private:
   std::vector<Corners> triangles_;
+  std::vector<PointToTriangle> distances_;
   std::vector<Box> boxes_;
   Box whole_;
 };
@@ -100,7 +104,7 @@ class Proof {
     for (int pieces = 0; !open_.empty(); ++pieces) {
       const auto [piece, level] = open_.back();
       open_.pop_back();
-      if (place_ != kNone && is_within(piece, surface_[place_], distance2_)) continue;
+      if (place_ != kNone && is_within(piece, surface_.distance_to(place_), distance2_)) continue;
       const Vec3 center = piece.center();
       const NearestTriangle nearest = surface_.nearest_from(center, place_);
       if (has_proof(piece, nearest)) continue;
@@ -132,7 +136,7 @@ class Proof {
   bool has_proof(const ConvexPiece& piece, const NearestTriangle& nearest) {
     if (nearest.place == place_ || nearest.place == kNone) return false;
     place_ = nearest.place;  // probably right for the next piece, too
-    return is_within(piece, surface_[place_], distance2_);
+    return is_within(piece, surface_.distance_to(place_), distance2_);
   }
 
   const Surface& surface_;

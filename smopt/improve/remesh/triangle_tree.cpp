@@ -149,7 +149,7 @@ void TriangleTree::search(const Vec3& p, const double& bound, const Visit& visit
 
 NearestTriangle TriangleTree::nearest(const Vec3& p, NearestTriangle known) const {
   search(p, known.squared_distance, [&](std::uint32_t place) {
-    const double distance2 = (p - nearest_point_of_triangle(p, triangles_[place])).squaredNorm();
+    const double distance2 = PointToTriangle(triangles_[place]).squared_distance(p);
     if (distance2 < known.squared_distance) known = {place, distance2};
   });
   return known;
@@ -157,15 +157,13 @@ NearestTriangle TriangleTree::nearest(const Vec3& p, NearestTriangle known) cons
 
 NearestTriangle TriangleTree::nearest_from(const Vec3& p, std::uint32_t place) const {
   if (place == NearestTriangle::kNone) return nearest(p);
-  return nearest(p, {place, (p - nearest_point_of_triangle(p, triangles_[place])).squaredNorm()});
+  return nearest(p, {place, PointToTriangle(triangles_[place]).squared_distance(p)});
 }
 
 double TriangleTree::distance_below(const Vec3& p, const NearestTriangle& known) const {
   double below = std::sqrt(known.squared_distance);
-  search(p, known.squared_distance, [&](std::uint32_t place) {
-    const Corners& t = triangles_[place];
-    below = std::min(below, distance_at_least(p, t, nearest_point_of_triangle(p, t)));
-  });
+  search(p, known.squared_distance,
+         [&](std::uint32_t place) { below = std::min(below, PointToTriangle(triangles_[place]).distance_below(p)); });
   return below;
 }
 

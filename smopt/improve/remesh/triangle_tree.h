@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "smopt/geometry/box.h"
-#include "smopt/improve/remesh/point_triangle.h"
+#include "smopt/improve/remesh/point_to_triangle.h"
 #include "smopt/mesh/triangle_mesh.h"
 
 namespace smopt {
@@ -42,8 +42,9 @@ class TriangleTree {
   /// No coordinate is larger, Å.
   [[nodiscard]] double extent() const { return extent_; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(triangles_.size()); }
-  /// The triangle at a place; what is close in space has close places.
+  /// The triangle at a place.
   [[nodiscard]] const Corners& operator[](std::uint32_t place) const { return triangles_[place]; }
+  [[nodiscard]] PointToTriangle distance_to(std::uint32_t place) const { return PointToTriangle(triangles_[place]); }
 
   static constexpr std::uint32_t kRoot = 0;
   [[nodiscard]] const Box& box(std::uint32_t node) const { return boxes_[node]; }
@@ -58,7 +59,7 @@ class TriangleTree {
   /// The same from the place of a triangle that is probably near, or kNone.
   [[nodiscard]] NearestTriangle nearest_from(const Vec3& p, std::uint32_t place) const;
   /// A distance that no triangle is nearer to p than, certified but for rounding: close to the distance, and the distance itself where the
-  /// nearest triangles are not needles (see `distance_at_least`). Infinite where there is no triangle.
+  /// nearest triangles are not needles (see `PointToTriangle::distance_below`). Infinite where there is no triangle.
   /// \param known  what `nearest` gave for p
   [[nodiscard]] double distance_below(const Vec3& p, const NearestTriangle& known) const;
 

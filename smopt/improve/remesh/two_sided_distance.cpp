@@ -17,8 +17,8 @@ namespace {
 /// What is looked at by one task, with what was found for one as a start for the next. It is part of the result's definition: where triangles
 /// are equally near, the start decides.
 constexpr std::uint32_t kTaskSize = 256;
-/// Pieces of one triangle that are looked at.
-constexpr int kMostPieces = 100'000;
+/// Pieces of one triangle that are looked at; a few megabytes where they all wait.
+constexpr int kMostPieces = 20'000;
 /// Rounding of a distance relative to the largest coordinate: a few dozen operations, and up to 40 levels of cuts.
 constexpr double kRoundingRel = 512 * 0x1p-53;
 /// No tolerance is below this, relative to the extent: eight times what rounding takes.
@@ -67,15 +67,16 @@ class Search {
 
   void try_point(const Vec3& p) { try_point(p, find(p)); }
 
+  /// The farthest pieces first, so that the bounds are close even where pieces run out.
   void try_triangle(const Corners& triangle) {
     open_.assign(1, {ConvexPiece(triangle), HUGE_VAL});
-    int pieces = 0;
-    while (!open_.empty() && pieces++ < kMostPieces) {
+    for (int pieces = 0; !open_.empty() && pieces < kMostPieces; ++pieces) {
+      std::pop_heap(open_.begin(), open_.end());
       OpenPiece next = open_.back();
       open_.pop_back();
       if (!settle(next.piece, next.upper, place_)) look_closely(next);
     }
-    for (const OpenPiece& left : open_) best_.upper = std::max(best_.upper, left.upper);
+    if (!open_.empty()) best_.upper = std::max(best_.upper, open_.front().upper);
   }
 
   [[nodiscard]] const FarthestPoint& best() const { return best_; }
@@ -85,6 +86,7 @@ class Search {
   struct OpenPiece {
     ConvexPiece piece;
     double upper;
+    bool operator<(const OpenPiece& other) const { return upper < other.upper; }
   };
 
   NearestTriangle find(const Vec3& p) {
@@ -101,7 +103,7 @@ class Search {
   }
   /// Whether the piece is close enough to the triangle at a place (or is known to be to some) that it need not be split; lowers `upper`.
   bool settle(const ConvexPiece& piece, double& upper, std::uint32_t place) {
-    if (place != NearestTriangle::kNone) upper = std::min(upper, std::sqrt(farthest_squared(piece, surface_[place])));
+    if (place != NearestTriangle::kNone) upper = std::min(upper, std::sqrt(farthest_squared(piece, surface_.distance_to(place))));
     if (!(upper <= best_.lower + tolerance_)) return false;
     best_.upper = std::max(best_.upper, upper);
     return true;
@@ -113,15 +115,17 @@ class Search {
     double upper = open.upper;
     if (settle(open.piece, upper, nearest.place)) return;
     const auto [over, beside] = split(open.piece, surface_[nearest.place], best_.lower + tolerance_);
-    open_.push_back({beside, upper});
-    open_.push_back({over, upper});
+    for (const ConvexPiece& part : {beside, over}) {
+      open_.push_back({part, upper});
+      std::push_heap(open_.begin(), open_.end());
+    }
   }
 
   const TriangleTree& surface_;
   double tolerance_;
   FarthestPoint best_;
   std::uint32_t place_ = NearestTriangle::kNone;
-  std::vector<OpenPiece> open_;
+  std::vector<OpenPiece> open_;  // a heap
 };
 
 /// Of all points of `from`, the farthest from `surface`. The lower bound that the vertices give decides how far triangles are split.

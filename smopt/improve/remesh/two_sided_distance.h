@@ -30,7 +30,7 @@ struct TwoSidedDistance {
 /// are: points without a triangle do not count, degenerate triangles do. Any surface is infinitely far from an empty one, and an
 /// empty one at 0 from any.
 /// \param tolerance  upper − lower at most, Å, on each side; > 0 and finite, otherwise throws InvalidOption; not less than 5e-13 of
-///                   the extent. Where a triangle would have to be split into more than 100 000 pieces, the bounds stay farther apart
+///                   the extent. Where a triangle would have to be split into more than 20 000 pieces, the bounds stay farther apart
 /// \pre   coordinates of triangles are finite, otherwise throws InvalidMesh.
 /// Cost: O(n log n), all cores, same result for any number of them; about 2 s of processor time for two surfaces of 130 000 triangles.
 TwoSidedDistance two_sided_distance(const TriangleMesh& a, const TriangleMesh& b, double tolerance);
