@@ -14,6 +14,7 @@
 #include "experiments/remesh_study/study_mesh.h"
 #include "experiments/study_program.h"
 #include "smopt/io/scratch_folder.h"
+#include "smopt/timing.h"
 
 namespace smopt::experiments {
 namespace {
@@ -99,7 +100,8 @@ std::string draw_figure(const RemeshStudy& study, const std::filesystem::path& f
 void run(Arguments& arguments) {
   arguments.study.datasets = chosen_datasets(arguments);
   arguments.study.compared = chosen_compared(arguments);
-  const RemeshStudyLog tell = [](const std::string& what) { fmt::print(stderr, "{}\n", what); };
+  const Stopwatch watch;
+  const RemeshStudyLog tell = [&](const std::string& what) { fmt::print(stderr, "[{:5.0f} s] {}\n", watch.elapsed().wall, what); };
   RemeshStudy study = run_remesh_study(arguments.study, baselines::all_methods(), tell);
   if (!arguments.output.empty() && !study.compared.empty()) study.figure = draw_figure(study, arguments.output);
   const std::string json = study_json(study).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -194,6 +194,12 @@ TEST(MeshChoice, CountsTheEdgesThatTurnByMore) {
   EXPECT_EQ(share_of_sharp_edges({}, 60), 0);
 }
 
+TEST(MeshChoice, DoesNotJudgeAnEdgeOfATriangleWithoutANormal) {
+  // Two triangles in a plane, and one without an area along an edge of each.
+  const TriangleMesh flat = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0, 0}}, {{0, 1, 2}, {0, 2, 3}, {1, 0, 4}}};
+  EXPECT_EQ(share_of_sharp_edges(flat, 60), 0);
+}
+
 /// A cube's faces, finely divided: closed, clean, and sharp along its edges.
 TriangleMesh fine_cube() {
   TriangleMesh mesh = testing::icosphere(4);
