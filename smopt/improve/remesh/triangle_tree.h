@@ -56,6 +56,8 @@ class TriangleTree {
 
   /// The triangle nearest to p, or `known` where none is nearer.
   [[nodiscard]] NearestTriangle nearest(const Vec3& p, NearestTriangle known = {}) const;
+  /// A triangle that is probably near p: none is known without a search.
+  [[nodiscard]] std::uint32_t guess(const Vec3&) const { return NearestTriangle::kNone; }
   /// The same from the place of a triangle that is probably near, or kNone.
   [[nodiscard]] NearestTriangle nearest_from(const Vec3& p, std::uint32_t place) const;
   /// A distance that no triangle is nearer to p than, certified but for rounding: close to the distance, and the distance itself where the
