@@ -33,7 +33,7 @@ struct NearestTriangle {
 class TriangleTree {
  public:
   /// Triangles of a leaf, at most.
-  static constexpr std::uint32_t kMostInLeaf = 4;
+  static constexpr std::uint32_t kMostInLeaf = 2;
 
   /// Cost: O(n log n), all cores: 40 ms for 130 000 triangles.
   explicit TriangleTree(const TriangleMesh& mesh);

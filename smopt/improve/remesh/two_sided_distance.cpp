@@ -72,9 +72,9 @@ class Search {
     open_.assign(1, {ConvexPiece(triangle), HUGE_VAL});
     for (int pieces = 0; !open_.empty() && pieces < kMostPieces; ++pieces) {
       std::pop_heap(open_.begin(), open_.end());
-      OpenPiece next = open_.back();
+      const OpenPiece next = open_.back();
       open_.pop_back();
-      if (!settle(next.piece, next.upper, place_)) look_closely(next);
+      if (!is_settled(next)) look_closely(next);
     }
     if (!open_.empty()) best_.upper = std::max(best_.upper, open_.front().upper);
   }
@@ -101,9 +101,15 @@ class Search {
     best_.lower = lower;
     best_.point = p;
   }
-  /// Whether the piece is close enough to the triangle at a place (or is known to be to some) that it need not be split; lowers `upper`.
-  bool settle(const ConvexPiece& piece, double& upper, std::uint32_t place) {
-    if (place != NearestTriangle::kNone) upper = std::min(upper, std::sqrt(farthest_squared(piece, surface_.distance_to(place))));
+  /// Whether the piece need not be split: it is known to be close enough to some triangle, or is to the last that was near.
+  bool is_settled(const OpenPiece& open) {
+    if (is_settled_by(open.upper)) return true;
+    if (place_ == NearestTriangle::kNone) return false;
+    const PointToTriangle triangle = surface_.distance_to(place_);
+    const double enough = best_.lower + tolerance_;
+    return is_within(open.piece, triangle, enough * enough) && is_settled_by(std::sqrt(farthest_squared(open.piece, triangle)));
+  }
+  bool is_settled_by(double upper) {
     if (!(upper <= best_.lower + tolerance_)) return false;
     best_.upper = std::max(best_.upper, upper);
     return true;
@@ -112,8 +118,8 @@ class Search {
     const Vec3 center = open.piece.center();
     const NearestTriangle nearest = find(center);
     try_point(center, nearest);
-    double upper = open.upper;
-    if (settle(open.piece, upper, nearest.place)) return;
+    const double upper = std::min(open.upper, std::sqrt(farthest_squared(open.piece, surface_.distance_to(nearest.place))));
+    if (is_settled_by(upper)) return;
     const auto [over, beside] = split(open.piece, surface_[nearest.place], best_.lower + tolerance_);
     for (const ConvexPiece& part : {beside, over}) {
       open_.push_back({part, upper});

@@ -102,7 +102,7 @@ Operation collapse_of(const Surface& surface, const Vec3& start, const Vec3& end
   return operation;
 }
 
-/// The two triangles of an edge get the other diagonal; nothing where the edge has not two.
+/// The two triangles of an edge get the other diagonal; nothing where the edge has not two that are triangles.
 std::optional<Operation> flip_of(const Surface& surface, const Vec3& p, const Vec3& q) {
   Operation operation;
   std::vector<Vec3> opposite;
@@ -110,8 +110,10 @@ std::optional<Operation> flip_of(const Surface& surface, const Vec3& p, const Ve
     const Corners t = surface.corners(f);
     const auto is_corner = [&](const Vec3& x) { return std::find(t.begin(), t.end(), x) != t.end(); };
     if (!surface.has(f) || !is_corner(p) || !is_corner(q)) continue;
+    const auto other = std::find_if(t.begin(), t.end(), [&](const Vec3& x) { return x != p && x != q; });
+    if (other == t.end()) return std::nullopt;
     operation.old_faces.push_back(f);
-    opposite.push_back(*std::find_if(t.begin(), t.end(), [&](const Vec3& x) { return x != p && x != q; }));
+    opposite.push_back(*other);
   }
   if (opposite.size() != 2) return std::nullopt;
   operation.new_triangles = {{opposite[0], opposite[1], p}, {opposite[0], opposite[1], q}};

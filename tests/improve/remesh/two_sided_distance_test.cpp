@@ -133,6 +133,18 @@ TEST(TwoSidedDistance, TakesDegenerateTrianglesForTheSegmentsAndPointsThatTheyAr
   expect_encloses(two_sided_distance(plane, joined(plane, needle), kTolerance).from_a, 0);
 }
 
+/// Along the curve that is equally far from two triangles, the number of pieces grows as the tolerance shrinks: they run out here.
+TEST(TwoSidedDistance, StaysCloseWhereTheToleranceIsOutOfReach) {
+  const TriangleMesh bend{{{0, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {-1, 0, 1}, {-1, 1, 1}},
+                          {{0, 1, 2}, {1, 3, 2}, {0, 1, 4}, {1, 5, 4}}};
+  const TriangleMesh lid{{{-0.7, 0.4, 1}, {0.9, 0.4, 1}, {-0.7, 0.6, 1}, {0.9, 0.6, 1}}, {{0, 1, 2}, {1, 3, 2}}};
+  const FarthestPoint coarse = two_sided_distance(lid, bend, 1e-3).from_a, fine = two_sided_distance(lid, bend, 1e-12).from_a;
+  EXPECT_GT(fine.upper - fine.lower, 1e-12) << "the limit was not reached: nothing is tested";
+  EXPECT_LE(fine.upper - fine.lower, 1e-3);
+  EXPECT_LE(fine.lower, coarse.upper);
+  EXPECT_GE(fine.upper, coarse.lower);
+}
+
 TEST(TwoSidedDistance, OfEmptySurfacesIsZeroFromThemAndInfiniteToThem) {
   const TriangleMesh none, some = cube();
   EXPECT_EQ(two_sided_distance(none, none, kTolerance).upper(), 0);
