@@ -12,8 +12,8 @@
 
 namespace smopt::experiments {
 
-/// Points at which a mesh is held against the level set: as many as `metrics::surface_distance` takes. Of the mean (0.02 Å on the meshes of
-/// the experiments, its spread as large) they leave an error of a few parts in a thousand.
+/// Points at which a mesh is held against the level set: as many as `metrics::surface_distance` takes. Their mean (0.06 Å on the initial mesh of
+/// the AChE monomer) is within a thousandth of that of ten times as many.
 inline constexpr std::size_t kLevelSetSamples = 200'000;
 
 /// The surface φ = c that a molecule's mesh stands for.
@@ -24,7 +24,7 @@ class LevelSet {
       : field_(molecule, gaussian_field_options(options)), isovalue_(options.isovalue) {}
 
   /// Of points spread evenly over the mesh (not of its vertices, which may lie on the level set while the triangles between them do not).
-  /// Empty where the mesh has no area or a corner that is not finite. Cost: 1 s of processor time for 200 000 samples.
+  /// Empty where the mesh has no area or a corner that is not finite. Cost: 0.4 s of processor time for 200 000 samples.
   [[nodiscard]] std::optional<LevelSetDistance> distance(const TriangleMesh& mesh, std::size_t samples = kLevelSetSamples) const;
 
  private:

@@ -43,6 +43,13 @@ const std::vector<MethodCase>& all_method_cases() {
   return cases;
 }
 
+std::vector<std::string> all_compared_methods() {
+  std::vector<std::string> names = {std::string(kInitial)};
+  for (const MethodCase& method_case : all_method_cases())
+    if (!method_case.is_ablation) names.push_back(method_case.name);
+  return names;
+}
+
 MethodCase find_method_case(std::string_view name) {
   const std::vector<MethodCase>& cases = all_method_cases();
   const auto found = std::find_if(cases.begin(), cases.end(), [&](const MethodCase& c) { return c.name == name; });

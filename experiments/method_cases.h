@@ -28,6 +28,9 @@ struct MethodCase {
 /// The cases of methods.json, in its order, which is that of tables and figures.
 const std::vector<MethodCase>& all_method_cases();
 
+/// What "all" means: the initial mesh, and every case of methods.json but the ablations.
+std::vector<std::string> all_compared_methods();
+
 /// Reads a text of the form of methods.json. \throws InvalidInput saying which entry is wrong.
 std::vector<MethodCase> parse_method_cases(std::string_view json);
 

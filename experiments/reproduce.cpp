@@ -14,11 +14,7 @@ std::vector<Dataset> chosen_datasets(const ReproduceOptions& options) {
 }
 
 std::vector<std::string> chosen_methods(const ReproduceOptions& options) {
-  if (options.methods != std::vector<std::string>{"all"}) return options.methods;
-  std::vector<std::string> methods = {std::string(kInitial)};
-  for (const MethodCase& method_case : all_method_cases())
-    if (!method_case.is_ablation) methods.push_back(method_case.name);
-  return methods;
+  return options.methods == std::vector<std::string>{"all"} ? all_compared_methods() : options.methods;
 }
 
 }  // namespace

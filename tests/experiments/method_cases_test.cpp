@@ -43,6 +43,17 @@ TEST(MethodCases, HaveNamesOfTheirOwnAndThePapersAreAmongThem) {
   for (const Method& method : baselines::all_methods().all()) EXPECT_TRUE(names.contains(method.name)) << method.name << " has no title";
 }
 
+TEST(MethodCases, AllAreTheInitialMeshAndEveryCaseButTheAblations) {
+  const std::vector<std::string> all = all_compared_methods();
+  EXPECT_EQ(all.front(), kInitial);
+  std::size_t ablations = 0;
+  for (const MethodCase& method_case : all_method_cases()) {
+    ablations += method_case.is_ablation ? 1 : 0;
+    EXPECT_EQ(std::find(all.begin(), all.end(), method_case.name) == all.end(), method_case.is_ablation) << method_case.name;
+  }
+  EXPECT_EQ(all.size(), all_method_cases().size() + 1 - ablations);
+}
+
 TEST(MethodCases, ANameThatIsNotListedIsTheMethodWithItsDefaults) {
   const MethodCase unlisted = find_method_case("my-method");
   EXPECT_EQ(unlisted.method, "my-method");
