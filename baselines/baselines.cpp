@@ -28,6 +28,7 @@ const MethodRegistry& all_methods() {
   static const MethodRegistry registry = [] {
     MethodRegistry methods;
     register_smopt(methods);
+    register_smopt2(methods);
     register_baselines(methods);
     return methods;
   }();

@@ -54,6 +54,24 @@ Json rounds_json(const std::vector<RoundReport>& rounds) {
   return list;
 }
 
+Json operations_json(const std::map<std::string, OperationCounts>& operations) {
+  Json json = Json::object();
+  for (const auto& [name, counts] : operations) json[name] = {{"done", counts.done}, {"refused", counts.refused}};
+  return json;
+}
+
+Json goals_json(const std::vector<GoalOutcome>& goals) {
+  Json json = Json::array();
+  for (const GoalOutcome& goal : goals) {
+    json.push_back({{"name", goal.name},
+                    {"goal", goal.goal},
+                    {"reached", goal.reached},
+                    {"missing", goal.missing},
+                    {"explanation", goal.explanation}});
+  }
+  return json;
+}
+
 }  // namespace
 
 void add_outcome(Json& report, const PreparationReport& preparation, const MethodReport& outcome) {
@@ -72,6 +90,9 @@ void add_outcome(Json& report, const PreparationReport& preparation, const Metho
                      {"shortened", outcome.moves.shortened},
                      {"refused", outcome.moves.refused},
                      {"stuck", outcome.stuck}};
+  if (!outcome.operations.empty()) report["operations"] = operations_json(outcome.operations);
+  if (!outcome.goals.empty()) report["goals"] = goals_json(outcome.goals);
+  if (outcome.deviation) report["deviation"] = {{"lower", outcome.deviation->lower}, {"upper", outcome.deviation->upper}};
   report["stopped_because"] = outcome.stopped_because;
   report["diverged_at_step"] = outcome.diverged_at_step ? Json(*outcome.diverged_at_step) : Json();
   report["notes"] = outcome.notes;

@@ -102,6 +102,13 @@ class TriangleGrid {
   /// Where triangle f is, as told last.
   [[nodiscard]] Box box(std::uint32_t f) const { return places_[f].box(); }
 
+  /// Makes room for triangles up to this number; those that are new are nowhere until they are added.
+  void grow(std::size_t triangles) { places_.resize(std::max(triangles, places_.size())); }
+  /// Puts in a triangle that was never in or was taken out. Changes more than existing blocks of the first tier if `needs_whole_grid(box)`.
+  void add(std::uint32_t f, const Box& box) {
+    places_[f].set(box);
+    settle(f, halves_of(box));
+  }
   /// Takes triangle f out: no query finds it any more.
   void remove(std::uint32_t f) { places_[f].set(Box{}); }
 

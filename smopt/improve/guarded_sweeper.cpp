@@ -1,8 +1,8 @@
 #include "smopt/improve/guarded_sweeper.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "smopt/improve/tile_sweep.h"
 
 namespace smopt {
 namespace {
@@ -15,42 +15,29 @@ void add(RoundReport& round, const RoundReport& part) {
 
 }  // namespace
 
-GuardedSweeper::GuardedSweeper(TriangleMesh& mesh, const VertexRings& rings, const MoveRules& rules)
+GuardedSweeper::GuardedSweeper(GuardedSurface& surface, const MoveRules& rules)
     : rules_(rules),
-      surface_(mesh, rings),
+      surface_(surface),
       movers_([this] { return VertexMover(surface_, rules_, GuardFactory(rules_.guard, surface_, rules_.vicinity)()); }),
-      is_stuck_(mesh.vertex_count(), 0) {}
+      is_stuck_(surface.mesh.vertex_count(), 0) {}
 
 std::size_t GuardedSweeper::stuck() const {
   return static_cast<std::size_t>(std::count(is_stuck_.begin(), is_stuck_.end(), 1));
 }
 
 RoundReport GuardedSweeper::sweep(const SweepSchedule& schedule, const StepOf& step_of, const Report& report) {
-  std::vector<RoundReport> of_tiles(schedule.tile_count());
-  std::vector<std::vector<VertexId>> postponed(schedule.tile_count());
-  for (int color = 0; color < SweepSchedule::kColors; ++color) {
-    report(static_cast<double>(color) / SweepSchedule::kColors);
-    const std::span<const SweepSchedule::Tile> tiles = schedule.tiles(color);
-    for_each_index(tiles.size(), [&](std::size_t i) {
-      const std::size_t index = schedule.index_of(tiles[i]);
-      for (const std::span<const VertexId> group : tiles[i].groups)
-        visit_all(group, &tiles[i].region, step_of, of_tiles[index], postponed[index]);
-    });
-  }
+  std::vector<RoundReport> of_tiles(schedule.tile_count() + 1);  // the last: what had to wait
+  const bool is_parallel = rules_.guard == GuardKind::exact;     // the others cannot share the surface
+  sweep_tiles(
+      schedule, is_parallel,
+      [&](std::span<const VertexId> group, const TriangleGrid::CubeRange* region, std::size_t tile, std::vector<VertexId>& postponed) {
+        visit_all(group, region, step_of, of_tiles[tile], postponed);
+      },
+      report);
   RoundReport round;
-  std::vector<VertexId> none;
-  for (const std::vector<VertexId>& vertices : postponed)
-    for (const VertexId& v : vertices) visit_all({&v, 1}, nullptr, step_of, round, none);
   for (const RoundReport& tile : of_tiles) add(round, tile);
   round.active = schedule.vertices().size();
   return round;
-}
-
-/// By all threads where the guard can share the surface, else by one.
-template <class Work>
-void GuardedSweeper::for_each_index(std::size_t count, const Work& work) {
-  if (rules_.guard == GuardKind::exact) return tbb::parallel_for(std::size_t{0}, count, work);
-  for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
 void GuardedSweeper::visit_all(std::span<const VertexId> vertices, const TriangleGrid::CubeRange* region, const StepOf& step_of,

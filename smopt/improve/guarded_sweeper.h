@@ -25,8 +25,8 @@ class GuardedSweeper {
   /// Told the fraction of a sweep that is done.
   using Report = std::function<void(double)>;
 
-  /// \pre `rings` are the mesh's; both outlive the sweeper, and the mesh changes only through it.
-  GuardedSweeper(TriangleMesh& mesh, const VertexRings& rings, const MoveRules& rules);
+  /// \pre the surface outlives the sweeper and changes only through it.
+  GuardedSweeper(GuardedSurface& surface, const MoveRules& rules);
 
   [[nodiscard]] SweepSchedule schedule(const std::vector<VertexId>& vertices) const { return {surface_.grid, surface_.mesh, vertices}; }
   RoundReport sweep(const SweepSchedule& schedule, const StepOf& step_of, const Report& report);
@@ -34,13 +34,11 @@ class GuardedSweeper {
   [[nodiscard]] std::size_t stuck() const;
 
  private:
-  template <class Work>
-  void for_each_index(std::size_t count, const Work& work);
   void visit_all(std::span<const VertexId> vertices, const TriangleGrid::CubeRange* region, const StepOf& step_of, RoundReport& round,
                  std::vector<VertexId>& postponed);
 
   MoveRules rules_;
-  GuardedSurface surface_;
+  GuardedSurface& surface_;
   tbb::enumerable_thread_specific<VertexMover> movers_;
   std::vector<char> is_stuck_;  // per vertex
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "smopt/improve/cavities.h"
+#include "smopt/improve/remesh/remesh.h"
 #include "smopt/improve/smoothing.h"
 #include "smopt/mesh/triangle_mesh.h"
 #include "smopt/progress.h"
@@ -54,6 +55,14 @@ struct MethodReport {
   std::size_t stuck = 0;
   double volume_before = 0;  ///< enclosed before smoothing, Å³; both 0 where a method does not say
   double volume_after = 0;
+  std::map<std::string, OperationCounts> operations;  ///< that change connectivity, by their names; empty where there are none
+  std::vector<GoalOutcome> goals;                     ///< of methods that have goals
+  /// Two-sided distance of input and output, Å: proved to lie between these bounds.
+  struct Deviation {
+    double lower = 0;
+    double upper = 0;
+  };
+  std::optional<Deviation> deviation;  ///< where a bound was asked for
   std::string stopped_because;
   std::optional<int> diverged_at_step;  ///< the first step (from 1) after which a coordinate was out of bounds (`DivergenceWatch`)
   std::vector<std::string> notes;       ///< what the user of the result should know, a sentence each
@@ -84,8 +93,9 @@ class MethodRegistry {
   std::vector<Method> methods_;
 };
 
-/// Adds `smopt`.
+/// Add `smopt` and `smopt2`.
 void register_smopt(MethodRegistry& registry);
+void register_smopt2(MethodRegistry& registry);
 
 /// "delete", "keep" or "main". \throws InvalidOption for anything else.
 CavityPolicy parse_cavity_policy(std::string_view text);

@@ -16,7 +16,13 @@ namespace {
 class Projector {
  public:
   Projector(TriangleMesh& mesh, const VertexRings& rings, const GaussianField& field, double isovalue, const ProjectionOptions& options)
-      : mesh_(mesh), rings_(rings), field_(field), isovalue_(isovalue), options_(options), sweeper_(mesh, rings, rules_of(options)) {}
+      : mesh_(mesh),
+        rings_(rings),
+        field_(field),
+        isovalue_(isovalue),
+        options_(options),
+        surface_(mesh, rings),
+        sweeper_(surface_, rules_of(options)) {}
 
   /// \param order  all vertices, in the order in which they are visited.
   ProjectionReport run(const std::vector<VertexId>& order, const ProgressCallback& progress) {
@@ -81,6 +87,7 @@ class Projector {
   const GaussianField& field_;
   double isovalue_;
   const ProjectionOptions& options_;
+  GuardedSurface surface_;
   GuardedSweeper sweeper_;
   std::vector<Vec3> steps_;  // per vertex: to its foot from where it is
   bool has_moved_ = true;

@@ -21,7 +21,13 @@ class Smoother {
   /// \param order  all vertices, in the order in which each block of the schedule visits its own.
   Smoother(TriangleMesh& mesh, const VertexRings& rings, const std::vector<VertexId>& order, const SmoothingOptions& options,
            const ProgressCallback& progress)
-      : options_(options), progress_(progress), order_(order), mesh_(mesh), rings_(rings), sweeper_(mesh, rings, rules_of(options)) {}
+      : options_(options),
+        progress_(progress),
+        order_(order),
+        mesh_(mesh),
+        rings_(rings),
+        surface_(mesh, rings),
+        sweeper_(surface_, rules_of(options)) {}
 
   SmoothingReport run() {
     Screening screening(mesh_, rings_, options_.thresholds);
@@ -99,6 +105,7 @@ class Smoother {
   const std::vector<VertexId>& order_;
   const TriangleMesh& mesh_;
   const VertexRings& rings_;
+  GuardedSurface surface_;
   GuardedSweeper sweeper_;
   std::vector<Vec3> steps_;        // per vertex: proposed at the beginning of the sweep (Jacobi only)
   bool has_come_to_rest_ = false;  // a newly chosen active set has not moved

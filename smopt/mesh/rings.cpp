@@ -132,9 +132,10 @@ bool has_all_rings(const TriangleMesh& mesh, const VertexStars& stars) {
 
 std::optional<VertexRings> build_rings(const TriangleMesh& mesh) {
   VertexStars stars = build_stars(mesh);
-  VertexRings rings{std::move(stars.offsets), std::vector<VertexId>(stars.faces.size()), std::move(stars.faces)};
+  VertexRings rings{std::vector<VertexRings::Row>(mesh.vertex_count()), std::vector<VertexId>(stars.faces.size()), std::move(stars.faces)};
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) rings.rows[v] = {stars.offsets[v], stars.offsets[v + 1] - stars.offsets[v]};
   const bool is_manifold = is_true_for_all(mesh.vertex_count(), [&](VertexId v) {
-    const std::uint32_t row = rings.offsets[v];
+    const std::uint32_t row = rings.rows[v].begin;
     return rings.valence(v) == 0 || order_star(mesh, v, rings.faces(v), rings.ring_vertices.data() + row, rings.ring_faces.data() + row);
   });
   return is_manifold ? std::optional(std::move(rings)) : std::nullopt;

@@ -12,14 +12,20 @@ namespace smopt {
 /// The one-ring of each vertex of a closed, oriented manifold, in order around it: triangle `faces(v)[i]` has the corners v,
 /// `vertices(v)[i]` and `vertices(v)[i + 1]` (cyclic), anticlockwise seen from outside.
 struct VertexRings {
-  std::vector<std::uint32_t> offsets;   ///< vertex_count + 1 entries
-  std::vector<VertexId> ring_vertices;  ///< 3 × triangle_count entries
+  /// Where a vertex's ring stands in the two arrays below.
+  struct Row {
+    std::uint32_t begin = 0;
+    std::uint32_t valence = 0;
+    bool operator==(const Row&) const = default;
+  };
+  std::vector<Row> rows;                ///< one a vertex
+  std::vector<VertexId> ring_vertices;  ///< 3 × triangle_count entries as built; more where rings have room to grow
   std::vector<FaceId> ring_faces;       ///< the same
 
-  [[nodiscard]] std::size_t vertex_count() const { return offsets.empty() ? 0 : offsets.size() - 1; }
-  [[nodiscard]] std::uint32_t valence(VertexId v) const { return offsets[v + 1] - offsets[v]; }
-  [[nodiscard]] std::span<const VertexId> vertices(VertexId v) const { return {ring_vertices.data() + offsets[v], valence(v)}; }
-  [[nodiscard]] std::span<const FaceId> faces(VertexId v) const { return {ring_faces.data() + offsets[v], valence(v)}; }
+  [[nodiscard]] std::size_t vertex_count() const { return rows.size(); }
+  [[nodiscard]] std::uint32_t valence(VertexId v) const { return rows[v].valence; }
+  [[nodiscard]] std::span<const VertexId> vertices(VertexId v) const { return {ring_vertices.data() + rows[v].begin, rows[v].valence}; }
+  [[nodiscard]] std::span<const FaceId> faces(VertexId v) const { return {ring_faces.data() + rows[v].begin, rows[v].valence}; }
 };
 
 /// Orders the triangles of one star into a single cycle. Appends to `vertices` and `faces`; false (nothing appended) where they form none:

@@ -26,7 +26,7 @@ TriangleMesh large_mesh() {
 TEST(Threads, GiveTheSameRings) {
   expect_same_for_any_threads([mesh = large_mesh()] {
     const VertexRings rings = build_rings(mesh).value();
-    return std::tuple(rings.offsets, rings.ring_vertices, rings.ring_faces);
+    return std::tuple(rings.rows, rings.ring_vertices, rings.ring_faces);
   });
 }
 

@@ -1,0 +1,134 @@
+#include "smopt/improve/remesh/patch_guard.h"
+
+#include <algorithm>
+
+#include "smopt/geometry/predicates.h"
+#include "smopt/geometry/triangle_intersection.h"
+#include "smopt/geometry/triangle_shape.h"
+
+namespace smopt {
+namespace {
+
+bool is_one_of(const std::vector<FaceId>& faces, FaceId f) {
+  return std::ranges::find(faces, f) != faces.end();
+}
+
+Eigen::Vector3f direction_of(const TrianglePoints& p) {
+  const double longest2 = std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
+  return reliable_direction(doubled_area_vector(p[0], p[1], p[2]), longest2);
+}
+
+}  // namespace
+
+TrianglePoints PatchGuard::points_of(const Triangle& t) const {
+  return {surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])};
+}
+
+Box PatchGuard::reach_of(const Patch& patch) const {
+  const TriangleGrid& grid = surface_.guarded().grid;
+  Box box = united(grid.box_of(patch.center), grid.box_of(patch.target));
+  for (const VertexId w : patch.boundary) box.unite(grid.box_of(surface_.point(w)));
+  return box;
+}
+
+bool PatchGuard::is_within_region(const Patch& patch) const {
+  if (region_ == nullptr) return true;
+  const TriangleGrid& grid = surface_.guarded().grid;
+  return region_->contains(grid.reading(reach_of(patch))) &&
+         std::ranges::all_of(patch.old_faces, [&](FaceId f) { return region_->contains(grid.home(f)); });
+}
+
+bool PatchGuard::must_wait(const Patch& patch) const {
+  if (region_ == nullptr) return false;
+  const TriangleGrid& grid = surface_.guarded().grid;
+  return std::ranges::any_of(patch.new_triangles, [&](const Triangle& t) {
+    return grid.needs_whole_grid(grid.box_of(surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])));
+  });
+}
+
+bool PatchGuard::is_ok(const Patch& patch) {
+  const bool has_axis = find_axis(patch);
+  if (!has_axis && !is_fold_free(patch)) return false;
+  const TriangleGrid& grid = surface_.guarded().grid;
+  surroundings_.gather(grid, surface_.mesh().points, surface_.mesh().triangles, reach_of(patch), patch.center);
+  has_outline_ = has_axis && patch.boundary.size() <= StarOutline::kMaxValence;
+  if (has_outline_) draw_outline(patch);
+  return is_clear_of_surroundings(patch);
+}
+
+/// Along the mean of all normals, old and new.
+bool PatchGuard::find_axis(const Patch& patch) {
+  directions_.clear();
+  for (const FaceId f : patch.old_faces) directions_.push_back(direction_of(points_of(surface_.mesh().triangles[f])));
+  for (const Triangle& t : patch.new_triangles) directions_.push_back(direction_of(points_of(t)));
+  axis_.setZero();
+  for (const Eigen::Vector3f& d : directions_) axis_ += d;
+  axis_.normalize();
+  if (!axis_.allFinite()) return false;
+  if (!std::ranges::all_of(directions_, [&](const Eigen::Vector3f& d) { return d.dot(axis_) > 2 * kConeRounding; })) return false;
+  // The star of an inner vertex turns once around its cone's axis, and so around every axis on which its normals are positive.
+  return patch.removed == kNoVertex || surface_.guarded().cones[patch.removed].squared_sine < NormalCone::kNoBound;
+}
+
+bool PatchGuard::is_fold_free(const Patch& patch) const {
+  const std::vector<Triangle>& all = patch.new_triangles;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const TrianglePoints p = points_of(all[i]);
+    if (are_collinear(p[0], p[1], p[2])) return false;
+    for (std::size_t j = 0; j < i; ++j)
+      if (triangles_meet_beyond_shared(p, all[i], points_of(all[j]), all[j])) return false;
+  }
+  return true;
+}
+
+void PatchGuard::draw_outline(const Patch& patch) {
+  spokes_.clear();
+  for (const VertexId w : patch.boundary) spokes_.push_back(surface_.point(w) - patch.center);
+  outline_.set(spokes_, patch.target - patch.center, axis_, patch.center - surroundings_.center(), surroundings_.radius());
+  seen_ = settled_ = 0;
+  for (std::size_t k = 0; k < patch.boundary.size(); ++k) {
+    if (!is_seen_along(surface_.guarded().cones[patch.boundary[k]], axis_)) continue;
+    seen_ |= 1U << k;
+    settled_ |= (outline_.is_convex_at(k) ? 1U : 0U) << k;
+  }
+}
+
+bool PatchGuard::is_clear_of_surroundings(const Patch& patch) {
+  const Box reach = reach_of(patch);
+  if (has_outline_)
+    for (std::size_t k = 0; k < patch.boundary.size(); ++k) bits_.set(patch.boundary[k], 1U << k);
+  const std::span<const std::uint32_t> near = surroundings_.near(reach);
+  const bool is_clear = std::ranges::all_of(near, [&](std::uint32_t i) {
+    const TriangleBatch::Entry& triangle = surroundings_[i];
+    if (is_one_of(patch.old_faces, triangle.face)) return true;
+    if (has_outline_) {
+      const unsigned own = bits_.of(triangle.corners);
+      if ((own & settled_) != 0 || is_clear_by_outline(triangle, own)) return true;
+    }
+    return is_clear_of(patch, triangle.corners);
+  });
+  if (has_outline_)
+    for (const VertexId w : patch.boundary) bits_.unset(w);
+  return is_clear;
+}
+
+bool PatchGuard::is_clear_by_outline(const TriangleBatch::Entry& triangle, unsigned own) const {
+  if (own == 0 && outline_.is_clear_of(triangle)) return true;
+  return (own & ~seen_) == 0 && outline_.is_parted_from_others(triangle, own);
+}
+
+bool PatchGuard::is_clear_of(const Patch& patch, const Triangle& triangle) const {
+  const TrianglePoints p = points_of(triangle);
+  const auto meets = [&](const Triangle& t) { return triangles_meet_beyond_shared(p, triangle, points_of(t), t); };
+  if (std::ranges::any_of(patch.new_triangles, meets) || std::ranges::any_of(patch.walls, meets)) return false;
+  return std::ranges::none_of(patch.swept, [&](const SweptTetrahedron& s) {
+    const TrianglePoints base = points_of(s.base);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool is_corner = triangle[i] == s.apex || std::ranges::count(s.base, triangle[i]) > 0;
+      if (!is_corner && strictly_inside_tetrahedron(p[i], base[0], base[1], base[2], surface_.point(s.apex))) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace smopt
