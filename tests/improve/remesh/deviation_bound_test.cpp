@@ -228,6 +228,35 @@ TEST(DeviationBound, RefusesToOpenAHole) {
   EXPECT_FALSE(allows(bound, surface, {{17, 18}, {surface.corners(17)}}));
 }
 
+/// The input's two triangles are far larger than the hole, and their middles far from it.
+TEST(DeviationBound, RefusesToOpenAHoleSmallBesideTheInputsTriangles) {
+  const Surface surface(flat_lattice(60));
+  const TriangleMesh input = scaled(flat_lattice(1), 60);
+  const Vec3 corner = surface.mesh().points[3 * 61 + 3];
+  Operation hole = move_of(surface, corner, corner);
+  hole.new_triangles.clear();
+  EXPECT_FALSE(allows(DeviationBound(input, 0.5), surface, hole));
+  EXPECT_TRUE(allows(DeviationBound(input, 0.8), surface, hole));  // its rim is √½ from the middle
+}
+
+/// Of a fine lattice, so that whole groups of the input's triangles are looked at at once.
+TEST(DeviationBound, RefusesAHoleOfManyTrianglesThatIsWiderThanTheBoundAndNoNarrower) {
+  const TriangleMesh input = rotated(flat_lattice(40), Vec3(1, 2, 3), 0.4);
+  const Surface surface(input);
+  const Vec3 middle = input.points[20 * 41 + 20] + Vec3(0.1, 0.03, 0);
+  for (const double epsilon : {4.0, 6.0, 9.0}) {
+    Operation wide, narrow;
+    for (FaceId f = 0; f < input.triangles.size(); ++f) {
+      const Corners t = surface.corners(f);
+      const auto is_closer = [&](double distance) { return [&, distance](const Vec3& p) { return (p - middle).norm() < distance; }; };
+      if (distance_from_surface(middle, {{t[0], t[1], t[2]}, {{0, 1, 2}}}) < 1.01 * epsilon) wide.old_faces.push_back(f);
+      if (std::all_of(t.begin(), t.end(), is_closer(0.95 * epsilon))) narrow.old_faces.push_back(f);
+    }
+    EXPECT_FALSE(allows(DeviationBound(input, epsilon), surface, wide)) << epsilon;
+    EXPECT_TRUE(allows(DeviationBound(input, epsilon), surface, narrow)) << epsilon;
+  }
+}
+
 /// The promise, against CGAL's distances of dense samples.
 TEST(DeviationBound, HoldsThroughHundredsOfRandomOperations) {
   for (std::uint32_t seed = 1; seed <= 8; ++seed) {
