@@ -299,6 +299,7 @@ def style_compared_axes(axes, column, run):
         axes.set_xlim(0, 60)  # an equilateral triangle's
         axes.set_xticks([0, 15, 30, 45, 60])
     axes.tick_params(axis="y", length=0, pad=7)
+    axes.tick_params(axis="x", labelsize=8)
     axes.set_title(title, fontsize=10)
     axes.set_xlabel("better \N{RIGHTWARDS ARROW}" if better == "right" else "\N{LEFTWARDS ARROW} better", fontsize=8)
     axes.grid(axis="x", color="#dddddd", linewidth=0.6, zorder=0)
