@@ -13,8 +13,8 @@ namespace smopt::experiments {
 struct ReproduceOptions {
   std::filesystem::path directory = "results/run";  ///< where records, tables and figures go
   std::vector<std::string> molecules;               ///< names of datasets; empty: all, with `is_quick` the small ones
-  std::vector<std::string> methods = {"initial", "smopt", "laplacian", "iso2mesh",
-                                      "meshlab"};                               ///< as RunOptions; "all": all of methods.json but ablations
+  std::vector<std::string> methods = {"initial",   "smopt",    "smopt2",
+                                      "laplacian", "iso2mesh", "meshlab"};      ///< as RunOptions; "all": all of methods.json but ablations
   bool is_quick = false;                                                        ///< small molecules only, one repeat
   int repeats = 3;                                                              ///< of everything that is timed; ≥ 1; 1 with `is_quick`
   bool keeps_meshes = false;                                                    ///< write each case's mesh to `directory`/meshes

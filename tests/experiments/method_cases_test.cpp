@@ -54,6 +54,22 @@ TEST(MethodCases, AllAreTheInitialMeshAndEveryCaseButTheAblations) {
   EXPECT_EQ(all.size(), all_method_cases().size() + 1 - ablations);
 }
 
+TEST(MethodCases, AnAblationChangesOneOptionOfAListedMethod) {
+  std::set<std::string> changed;
+  for (const MethodCase& method_case : all_method_cases()) {
+    if (!method_case.is_ablation) continue;
+    const MethodCase whole = find_method_case(method_case.method);
+    EXPECT_EQ(whole.name, "smopt2") << method_case.name;
+    ASSERT_EQ(method_case.options.size(), whole.options.size() + 1) << method_case.name;
+    const auto& [option, value] = *method_case.options.begin();
+    changed.insert(option);
+    const Method& method = baselines::all_methods().find(method_case.method);
+    EXPECT_NE(OptionValues(method.options, {}).text(option), value) << method_case.name << " is the method with its defaults";
+    EXPECT_FALSE(method_case.is_in_paper_tables);
+  }
+  EXPECT_THAT(changed, UnorderedElementsAre("flips", "collapses", "splits", "volume"));
+}
+
 TEST(MethodCases, ANameThatIsNotListedIsTheMethodWithItsDefaults) {
   const MethodCase unlisted = find_method_case("my-method");
   EXPECT_EQ(unlisted.method, "my-method");
