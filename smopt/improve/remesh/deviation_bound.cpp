@@ -209,6 +209,7 @@ struct Scratch {
   TriangleList close;  // the new triangles and those that stay, around the old patch
   TriangleList local;  // the same around some part of the input
   std::vector<OpenPiece> open;
+  std::vector<FaceId> faces;
 };
 
 Scratch& scratch() {
@@ -220,8 +221,14 @@ Scratch& scratch() {
 class Replacement {
  public:
   Replacement(const Vec3& origin, const TriangleMesh& mesh, const TriangleGrid& grid, std::span<const FaceId> old_faces,
-              std::span<const Corners> new_triangles, TriangleList& old_patch)
-      : origin_(origin), mesh_(mesh), grid_(grid), old_faces_(old_faces), new_triangles_(new_triangles), old_patch_(old_patch) {
+              std::span<const Corners> new_triangles, Scratch& memory)
+      : origin_(origin),
+        mesh_(mesh),
+        grid_(grid),
+        old_faces_(old_faces),
+        new_triangles_(new_triangles),
+        old_patch_(memory.old_patch),
+        faces_(memory.faces) {
     old_patch_.clear();
     for (const FaceId f : old_faces) {
       const Triangle& t = mesh.triangles[f];
@@ -236,9 +243,12 @@ class Replacement {
     list.clear();
     for (const Corners& t : new_triangles_)
       if (grid_.box_of(t[0], t[1], t[2]).overlaps(around)) list.add(in_frame(t));
-    grid_.for_overlapping(around, [&](FaceId f) {
+    // By number: the grid's order is any, and of triangles equally near the first is taken.
+    faces_.clear();
+    grid_.for_overlapping(around, [&](FaceId f) { faces_.push_back(f); });
+    std::sort(faces_.begin(), faces_.end());
+    for (const FaceId f : faces_)
       if (std::find(old_faces_.begin(), old_faces_.end(), f) == old_faces_.end()) list.add(corners_of(mesh_, f, origin_));
-    });
   }
   /// The box of a part of the input, in the grid's frame.
   [[nodiscard]] Box in_grid(const Box& box) const { return grid_.box_of(low_of(box) + origin_, high_of(box) + origin_); }
@@ -252,6 +262,7 @@ class Replacement {
   std::span<const FaceId> old_faces_;
   std::span<const Corners> new_triangles_;
   TriangleList& old_patch_;
+  std::vector<FaceId>& faces_;
   Box box_in_grid_;
 };
 
@@ -357,7 +368,7 @@ Box DeviationBound::reach(const Box& old_patch) const {
 bool DeviationBound::allows(const TriangleMesh& mesh, const TriangleGrid& grid, std::span<const FaceId> old_faces,
                             std::span<const Corners> new_triangles) const {
   Scratch& memory = scratch();
-  const Replacement replacement(input_.origin(), mesh, grid, old_faces, new_triangles, memory.old_patch);
+  const Replacement replacement(input_.origin(), mesh, grid, old_faces, new_triangles, memory);
   Proof<TriangleTree> near_input(input_, provable_, memory.open);
   for (const Corners& t : new_triangles)
     if (!near_input.covers(replacement.in_frame(t))) return false;

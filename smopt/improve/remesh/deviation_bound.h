@@ -23,7 +23,9 @@ namespace smopt {
 /// distance comes as close to ε as 2⁻⁴⁴ of the input's extent it is always refused, which covers all rounding.
 ///
 /// Several threads may ask at the same time, each about its own region (see `reach`).
-/// Cost: about 10 µs a question about an edge or a vertex; memory 110 bytes a triangle of the input.
+/// The answer does not depend on the order in which the grid lists triangles.
+/// Cost of a question about a vertex: 14 µs where the bound is half an edge; 45 µs where it is five edges, or where the surface is already close
+/// to it; some are refused only after half a millisecond. Memory: 130 bytes a triangle of the input.
 class DeviationBound {
  public:
   /// \param input    coordinates finite, Å; any triangles, closed or not, degenerate or not

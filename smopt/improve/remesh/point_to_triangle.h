@@ -19,6 +19,7 @@ using Corners = std::array<Vec3, 3>;
 /// the last rounding, so that no distance is understated; overstated it is by at most 1e-8 of the size, on needles.
 class PointToTriangle {
  public:
+  /// \pre the corners are finite.
   explicit PointToTriangle(const Corners& t) : a_(t[0]), ab_(t[1] - t[0]), ac_(t[2] - t[0]) {
     const Vec3 normal = ab_.cross(ac_);
     const double ab2 = ab_.squaredNorm(), ac2 = ac_.squaredNorm(), whole = normal.squaredNorm();
@@ -33,7 +34,7 @@ class PointToTriangle {
     weight_c_ = per_whole * normal.cross(ab_);
   }
 
-  /// From the nearest point of the triangle to p; infinite where a coordinate is not finite.
+  /// From the nearest point of the triangle to p; not finite where a coordinate of p is not.
   [[nodiscard]] Vec3 offset(const Vec3& p) const {
     const Vec3 ap = p - a_;
     const double v = weight_b_.dot(ap), w = weight_c_.dot(ap), u = sum_of_weights_ - v - w;

@@ -32,7 +32,8 @@ struct TwoSidedDistance {
 /// \param tolerance  upper − lower at most, Å, on each side; > 0 and finite, otherwise throws InvalidOption; not less than 5e-13 of
 ///                   the extent. Where a triangle would have to be split into more than 20 000 pieces, the bounds stay farther apart
 /// \pre   coordinates of triangles are finite, otherwise throws InvalidMesh.
-/// Cost: O(n log n), all cores, same result for any number of them; about 2 s of processor time for two surfaces of 130 000 triangles.
+/// Cost: O(n log n), all cores, same result for any number of them; 0.3 to 1.3 s of processor time for two
+/// surfaces of 130 000 triangles at a thousandth of an edge, the less the farther apart they are.
 TwoSidedDistance two_sided_distance(const TriangleMesh& a, const TriangleMesh& b, double tolerance);
 
 }  // namespace smopt
