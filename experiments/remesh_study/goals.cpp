@@ -218,7 +218,7 @@ std::vector<Quantity> use_quantities(StudiedMeshes meshes) {
   if (meshes == StudiedMeshes::molecules)
     quantities.push_back({{"solvation_iterations", "Solvation iterations (on SMOPT's mesh)"}, "", judge_solvation});
   const bool is_judged = meshes == StudiedMeshes::molecules;
-  quantities.push_back(seconds_quantity({"seconds_1_thread", "Seconds, one thread"}, "/seconds/total", {Side::at_most, 2, 0.6},
+  quantities.push_back(seconds_quantity({"seconds_1_thread", "Seconds, one thread"}, "/cpu_seconds/total", {Side::at_most, 2, 0.6},
                                         is_judged ? kMostVerticesOfMonomer : 0));
   quantities.push_back(seconds_quantity({"seconds_2_threads", "Seconds, two threads"}, "/two_threads/seconds", {Side::at_most, 30, 8},
                                         is_judged ? kMostVerticesOfMillion : 0));

@@ -20,7 +20,8 @@ Molecules as the experiments mesh them, and ready meshes, improved by `smopt imp
 methods have (pairs by CGAL's exact predicates, TetGen in a process of its own). Every method is given the initial mesh without its cavities, and
 volume, area and distances are held against that mesh. The *distance to the level set* is the mean over the area (200 000 samples, not the
 vertices); the *deviation* is the larger of the two one-sided distances to the mesh that was given, over as many samples and all vertices.
-Seconds are those of the whole method and of what prepares the mesh, without reading and writing.
+Seconds are those of the whole method and of what prepares the mesh, without reading and writing: on one thread the processor's, on two the
+clock's.
 
 A goal is in the column's head. **Bold with ✗**: the must is missed, and the list below says where and, as far as it is known, why. ✓: the
 aim is reached. Neither: the must is met. Seconds on one thread and TetGen `-pq1.4` are musts up to 75 000 vertices, seconds on two threads up to
@@ -39,7 +40,8 @@ edges, and models of so few triangles that their limbs are prisms.
 constexpr const char* kComparedText = R"(
 ## Beside the other methods
 
-Every method of the experiments on the same meshes; those that can be told a number of vertices get that of `smopt2`'s result.
+Every method of the experiments on the same meshes; those that can be told a number of vertices get that of `smopt2`'s result
+(ISO2mesh can only take vertices away).
 )";
 
 constexpr const char* kAblationText = R"(
