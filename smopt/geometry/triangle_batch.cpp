@@ -61,15 +61,14 @@ void TriangleBatch::gather(const TriangleGrid& grid, const std::vector<Vec3>& po
 }
 
 void TriangleBatch::add(std::uint32_t f, const Box& box, const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>& t) {
-  const Eigen::Vector3f a = (points[t[0]] - center_).cast<float>(), b = (points[t[1]] - center_).cast<float>(),
-                        c = (points[t[2]] - center_).cast<float>();
-  radius_ = std::max({radius_, largest_of(a), largest_of(b), largest_of(c)});
+  const Entry entry = Entry::of(f, t, points, center_);
+  radius_ = std::max(radius_, entry.radius());
   if (entries_.size() % kBoxesPerGroup == 0) {
     constexpr Steps kLow = Steps{} + kBeyondLow, kHigh = Steps{} + kBeyondHigh;
     boxes_.push_back({{kLow, kLow, kLow}, {kHigh, kHigh, kHigh}});
   }
   put_box(entries_.size(), box);
-  entries_.push_back(Entry{{a[0], b[0], c[0], c[0]}, {a[1], b[1], c[1], c[1]}, {a[2], b[2], c[2], c[2]}, f, t});
+  entries_.push_back(entry);
 }
 
 void TriangleBatch::set_space(const Box& space) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -23,6 +24,18 @@ class TriangleBatch {
     Floats x, y, z;  ///< Å, relative to center()
     std::uint32_t face;
     std::array<std::uint32_t, 3> corners;  ///< vertex numbers
+
+    /// Of triangle f, whose corners are t.
+    static Entry of(std::uint32_t f, const std::array<std::uint32_t, 3>& t, const std::vector<Vec3>& points, const Vec3& center) {
+      const Eigen::Vector3f a = (points[t[0]] - center).cast<float>(), b = (points[t[1]] - center).cast<float>(),
+                            c = (points[t[2]] - center).cast<float>();
+      return Entry{Floats{a[0], b[0], c[0], c[0]}, Floats{a[1], b[1], c[1], c[1]}, Floats{a[2], b[2], c[2], c[2]}, f, t};
+    }
+    /// The largest coordinate, whatever its sign, Å.
+    [[nodiscard]] float radius() const {
+      const Floats largest = larger_of(larger_of(absolute(x), absolute(y)), absolute(z));
+      return std::max({largest[0], largest[1], largest[2]});
+    }
   };
 
   /// Copies every triangle whose box overlaps `space` (in the grid's frame). Cost: as the grid's query.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "smopt/error.h"
@@ -137,8 +138,10 @@ void add_notes(MethodReport& report, const RemeshReport& remeshed) {
 /// Measured, whatever was enforced.
 void add_distance(MethodReport& report, const TriangleMesh& input, const TriangleMesh& output, double bound) {
   const TwoSidedDistance distance = two_sided_distance(input, output, kMeasuringToleranceRel * bound);
-  report.deviation = MethodReport::Deviation{distance.lower(), distance.upper()};
-  report.notes.push_back(fmt::format("input and output are within {:.4g} Å of each other (bound {:.4g} Å)", distance.upper(), bound));
+  const double upper = std::min(distance.upper(), bound);  // both are proved
+  report.deviation = MethodReport::Deviation{distance.lower(), upper};
+  report.notes.push_back(
+      fmt::format("input and output are between {:.4g} and {:.4g} Å from each other (bound {:.4g} Å)", distance.lower(), upper, bound));
 }
 
 MethodReport run_smopt2(TriangleMesh& mesh, const OptionValues& values, const ProgressCallback& progress) {

@@ -8,10 +8,10 @@ namespace smopt {
 namespace {
 
 constexpr std::uint32_t kMinValence = 3;
-/// Edges are too short below this part of their size (Botsch and Kobbelt: 4/5; less leaves fewer collapses and splits that undo each other).
-constexpr double kTooShort = 0.75;
+/// Edges are too short below this part of their size (Botsch and Kobbelt: 4/5; less saves collapses and the splits that they would cost).
+constexpr double kTooShort = 0.7;
 /// No edge may come to be longer than this, in parts of its size: it would be split again.
-constexpr double kTooLong = 1.4, kTooLongInRepairs = 1.7;
+constexpr double kTooLong = 1.5, kTooLongInRepairs = 1.7;
 constexpr int kLargestExcess = 2, kSmallestExcess = -2;
 /// A collapse may make triangles worse down to this.
 constexpr double kMendableQuality = 0.5;

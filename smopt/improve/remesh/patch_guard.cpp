@@ -9,6 +9,9 @@
 namespace smopt {
 namespace {
 
+/// Triangles that reach farther, in radii of the patch, are left to the exact predicates.
+constexpr float kOutlineReach = 4;
+
 bool is_one_of(const std::vector<FaceId>& faces, FaceId f) {
   return std::ranges::find(faces, f) != faces.end();
 }
@@ -49,8 +52,6 @@ bool PatchGuard::must_wait(const Patch& patch) const {
 bool PatchGuard::is_ok(const Patch& patch) {
   const bool has_axis = find_axis(patch);
   if (!has_axis && !is_fold_free(patch)) return false;
-  const TriangleGrid& grid = surface_.guarded().grid;
-  surroundings_.gather(grid, surface_.mesh().points, surface_.mesh().triangles, reach_of(patch), patch.center);
   has_outline_ = has_axis && patch.boundary.size() <= StarOutline::kMaxValence;
   if (has_outline_) draw_outline(patch);
   return is_clear_of_surroundings(patch);
@@ -83,8 +84,13 @@ bool PatchGuard::is_fold_free(const Patch& patch) const {
 
 void PatchGuard::draw_outline(const Patch& patch) {
   spokes_.clear();
-  for (const VertexId w : patch.boundary) spokes_.push_back(surface_.point(w) - patch.center);
-  outline_.set(spokes_, patch.target - patch.center, axis_, patch.center - surroundings_.center(), surroundings_.radius());
+  double largest = (patch.target - patch.center).cwiseAbs().maxCoeff();
+  for (const VertexId w : patch.boundary) {
+    spokes_.push_back(surface_.point(w) - patch.center);
+    largest = std::max(largest, spokes_.back().cwiseAbs().maxCoeff());
+  }
+  outline_radius_ = kOutlineReach * static_cast<float>(largest);
+  outline_.set(spokes_, patch.target - patch.center, axis_, Vec3::Zero(), outline_radius_);
   seen_ = settled_ = 0;
   for (std::size_t k = 0; k < patch.boundary.size(); ++k) {
     if (!is_seen_along(surface_.guarded().cones[patch.boundary[k]], axis_)) continue;
@@ -94,27 +100,27 @@ void PatchGuard::draw_outline(const Patch& patch) {
 }
 
 bool PatchGuard::is_clear_of_surroundings(const Patch& patch) {
-  const Box reach = reach_of(patch);
+  near_.clear();
+  surface_.guarded().grid.for_overlapping(reach_of(patch), [&](FaceId f) { near_.push_back(f); });
   if (has_outline_)
     for (std::size_t k = 0; k < patch.boundary.size(); ++k) bits_.set(patch.boundary[k], 1U << k);
-  const std::span<const std::uint32_t> near = surroundings_.near(reach);
-  const bool is_clear = std::ranges::all_of(near, [&](std::uint32_t i) {
-    const TriangleBatch::Entry& triangle = surroundings_[i];
-    if (is_one_of(patch.old_faces, triangle.face)) return true;
-    if (has_outline_) {
-      const unsigned own = bits_.of(triangle.corners);
-      if ((own & settled_) != 0 || is_clear_by_outline(triangle, own)) return true;
-    }
-    return is_clear_of(patch, triangle.corners);
+  const bool is_clear = std::ranges::all_of(near_, [&](FaceId f) {
+    if (is_one_of(patch.old_faces, f)) return true;
+    const Triangle& triangle = surface_.mesh().triangles[f];
+    return (has_outline_ && is_clear_by_outline(patch, f, triangle)) || is_clear_of(patch, triangle);
   });
   if (has_outline_)
     for (const VertexId w : patch.boundary) bits_.unset(w);
   return is_clear;
 }
 
-bool PatchGuard::is_clear_by_outline(const TriangleBatch::Entry& triangle, unsigned own) const {
-  if (own == 0 && outline_.is_clear_of(triangle)) return true;
-  return (own & ~seen_) == 0 && outline_.is_parted_from_others(triangle, own);
+bool PatchGuard::is_clear_by_outline(const Patch& patch, FaceId f, const Triangle& triangle) const {
+  const unsigned own = bits_.of(triangle);
+  if ((own & settled_) != 0) return true;
+  const auto entry = TriangleBatch::Entry::of(f, triangle, surface_.mesh().points, patch.center);
+  if (entry.radius() > outline_radius_) return false;
+  if (own == 0 && outline_.is_clear_of(entry)) return true;
+  return (own & ~seen_) == 0 && outline_.is_parted_from_others(entry, own);
 }
 
 bool PatchGuard::is_clear_of(const Patch& patch, const Triangle& triangle) const {

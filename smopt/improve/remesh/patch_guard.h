@@ -37,19 +37,20 @@ class PatchGuard {
   [[nodiscard]] bool is_fold_free(const Patch& patch) const;
   void draw_outline(const Patch& patch);
   [[nodiscard]] bool is_clear_of_surroundings(const Patch& patch);
-  [[nodiscard]] bool is_clear_by_outline(const TriangleBatch::Entry& triangle, unsigned own) const;
+  [[nodiscard]] bool is_clear_by_outline(const Patch& patch, FaceId f, const Triangle& triangle) const;
   [[nodiscard]] bool is_clear_of(const Patch& patch, const Triangle& triangle) const;
   [[nodiscard]] TrianglePoints points_of(const Triangle& t) const;
 
   const EditableSurface& surface_;
   const TriangleGrid::CubeRange* region_ = nullptr;
-  TriangleBatch surroundings_;
+  std::vector<FaceId> near_;  // triangles whose boxes overlap what is swept
   VertexBits bits_;
   std::vector<Vec3> spokes_;
   std::vector<Eigen::Vector3f> directions_;  // of the normals, old and new
   Eigen::Vector3f axis_ = Eigen::Vector3f::Zero();
   bool has_outline_ = false;
   StarOutline outline_;
+  float outline_radius_ = 0;  // no coordinate, relative to the patch's centre, of what is held against the outline is larger, Å
   unsigned seen_ = 0;     // boundary vertices whose stars are seen one-to-one along the axis, a bit each
   unsigned settled_ = 0;  // boundary vertices whose other triangles need no look
 };
