@@ -51,8 +51,8 @@ class PatchGuard {
   bool has_outline_ = false;
   StarOutline outline_;
   float outline_radius_ = 0;  // no coordinate, relative to the patch's centre, of what is held against the outline is larger, Å
-  unsigned seen_ = 0;     // boundary vertices whose stars are seen one-to-one along the axis, a bit each
-  unsigned settled_ = 0;  // boundary vertices whose other triangles need no look
+  unsigned seen_ = 0;         // boundary vertices whose stars are seen one-to-one along the axis, a bit each
+  unsigned settled_ = 0;      // boundary vertices whose other triangles need no look
 };
 
 }  // namespace smopt

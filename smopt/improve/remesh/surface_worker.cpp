@@ -15,6 +15,8 @@ namespace {
 
 /// A step is halved this often where the guard refuses it: what is then left of it is hardly worth the question.
 constexpr int kHalvings = 4;
+/// Relaxation leaves vertices where they are that would move by less than this part of an edge: no angle changes by more than some degrees.
+constexpr double kLeastStepRel = 0.02;
 /// Repairs move a vertex for a gain above this, and try steps of these parts.
 constexpr double kSmallestRepair = 0.01;
 constexpr std::array<double, 3> kStepParts = {1, 0.5, 0.25};
@@ -114,7 +116,9 @@ void SurfaceWorker::make(const Patch& patch) {
 }
 
 Visit SurfaceWorker::relax(VertexId v) {
-  return move(v, keeping_volume(v, step_to_centroid(state_.surface, v)));
+  const Vec3 step = keeping_volume(v, step_to_centroid(state_.surface, v));
+  const double least = kLeastStepRel * state_.sizes[v];
+  return step.squaredNorm() < least * least ? Visit::unmoved : move(v, step);
 }
 
 Visit SurfaceWorker::give_back(VertexId v) {
