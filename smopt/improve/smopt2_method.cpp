@@ -22,6 +22,9 @@ using Kind = MethodOption::Kind;
 /// How exactly the distance to the input is measured, in parts of the bound that was asked for.
 constexpr double kMeasuringToleranceRel = 0.01;
 
+/// How often vertices are brought onto the level set; repairs, which follow, take some off it again, in the end hardly any.
+constexpr int kProjections = 3;
+
 std::string text_of(double value) {
   return fmt::format("{}", value);
 }
@@ -107,20 +110,23 @@ RemeshOptions parse(const OptionValues& values) {
   return options;
 }
 
-/// Onto the level set, then again what that made miss a goal, and back onto it.
+/// Vertices go onto the level set, then what that made miss a goal is repaired, and so on.
 RemeshReport remesh_onto_level_set(TriangleMesh& mesh, const RemeshOptions& options, const OptionValues& values,
                                    const ProgressCallback& progress) {
   GaussianFieldOptions field_options;
   field_options.decay = values.number("decay", 0);
   const double isovalue = values.number("isovalue", 0);
   const GaussianField field(read_molecule(values.text("molecule")), field_options);
-  RemeshReport report = remesh(mesh, options, progress);
-  project_onto_level_set(mesh, field, isovalue, {}, progress);
   RemeshOptions repairs = options;
   repairs.rounds = 0;
   repairs.preserves_volume = false;  // the level set's volume is what is wanted now
-  report.append(remesh(mesh, repairs, progress));
-  project_onto_level_set(mesh, field, isovalue, {}, progress);
+  ProjectionOptions projection;
+  projection.min_angle_deg = options.goals.min_angle_deg;
+  RemeshReport report = remesh(mesh, options, progress);
+  for (int i = 0; i < kProjections; ++i) {
+    project_onto_level_set(mesh, field, isovalue, projection, progress);
+    report.append(remesh(mesh, repairs, progress));
+  }
   return report;
 }
 

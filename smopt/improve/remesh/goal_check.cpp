@@ -132,7 +132,8 @@ std::string refusals_around(const RemeshState& state, VertexId center, SurfaceWo
   std::array<VerdictCounts, kOperationKinds> operations{};
   VerdictCounts moves{};
   worker.judge_all(center, operations, moves);
-  for (const VertexId w : state.surface.rings().vertices(center)) worker.judge_all(w, operations, moves);
+  for (const VertexId w : state.surface.rings().vertices(center))
+    if (misses_a_goal(state, w)) worker.judge_all(w, operations, moves);
   std::string text;
   for (const OperationKind kind : {kFlip, kCollapse, kSplit}) text += to_text(operation(kind).plural, operations[kind]);
   return text + to_text("moves", moves);

@@ -24,8 +24,12 @@ constexpr int kRingsAround = 2;
 constexpr double kRefinement = 0.7;
 constexpr int kRefinedRings = 3;
 constexpr int kRoundsOfRefinement = 3;
-/// After this round the sizes are set right for the number of vertices: before, splits are ahead of collapses, later on the mesh has settled.
-constexpr int kRoundOfAdjustment = 1;
+/// From this round on the sizes are set right for the number of vertices, as long as it is off by more than this part; before, splits are ahead
+/// of collapses.
+constexpr int kFirstAdjustment = 1;
+constexpr double kTolerableMiss = 0.02;
+/// Rounds that may be added for that.
+constexpr int kRoundsOfAdjustment = 4;
 /// Sweeps at the end in which vertices give back volume, at most.
 constexpr int kPaymentSweeps = 4;
 
@@ -43,7 +47,13 @@ class Remesher {
 
   RemeshReport run() {
     std::vector<VertexId> active = all_vertices();
-    for (; report_.rounds < options_.rounds && !active.empty(); ++report_.rounds) active = run_round(active);
+    int last_round = options_.rounds;
+    for (; report_.rounds < last_round && !active.empty(); ++report_.rounds) {
+      active = run_round(active);
+      if (report_.rounds < kFirstAdjustment || !adjust_sizes()) continue;
+      active = all_vertices();
+      last_round = std::min(std::max(last_round, report_.rounds + 3), options_.rounds + kRoundsOfAdjustment);
+    }
     std::vector<VertexId> missing = repaired(those_that_miss(all_vertices()));
     for (int i = 0; i < options_.refinements && options_.splits; ++i) {
       const std::vector<VertexId> misshapen = filtered(missing, [&](VertexId v) { return has_bad_shape(state_, v); });
@@ -65,7 +75,6 @@ class Remesher {
     for (const OperationKind kind : {kSplit, kCollapse, kFlip}) change_all(kind == kSplit ? active : with_touched(active), kind);
     const std::vector<VertexId> changed = with_touched(active);
     sweep(changed, [](SurfaceWorker& worker, VertexId v) { return worker.relax(v); });
-    if (report_.rounds == kRoundOfAdjustment && options_.keeps_count()) adjust_sizes();
     return around_touched();
   }
 
@@ -201,10 +210,12 @@ class Remesher {
     return vertices;
   }
 
-  /// Rounds end with somewhat more or fewer vertices than equilateral triangles of the sizes would have.
-  void adjust_sizes() {
-    const double factor = std::sqrt(static_cast<double>(all_vertices().size()) / static_cast<double>(target_));
-    for (double& size : state_.sizes) size *= factor;
+  /// Where a number of vertices is aimed at and missed: sizes become as much larger or smaller. Returns whether they did.
+  bool adjust_sizes() {
+    const double excess = static_cast<double>(all_vertices().size()) / static_cast<double>(target_);
+    if (!options_.keeps_count() || std::abs(excess - 1) <= kTolerableMiss) return false;
+    for (double& size : state_.sizes) size *= std::sqrt(excess);
+    return true;
   }
 
   void collect() {

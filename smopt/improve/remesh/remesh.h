@@ -76,7 +76,7 @@ struct RemeshReport {
 /// minimal angle improvement, 2017). Every operation is allowed by an exact test against the whole surface of all that it sweeps over: no pair of
 /// triangles intersects afterwards that did not before, and the topology is unchanged. Vertices move within the plane across their star's area
 /// vector, and give back along it what volume the other operations took.
-/// \param mesh  positions in Å, changed in place, connectivity too; closed, manifold and oriented.
+/// \param mesh  positions in Å, changed in place, connectivity too, and numbered anew along a curve through space; closed, manifold and oriented.
 /// \throws InvalidOption; InvalidMesh when the mesh is no closed, oriented manifold; Cancelled.
 /// Cost: some 15 microseconds a vertex on one thread; the same bytes for any number of threads.
 RemeshReport remesh(TriangleMesh& mesh, const RemeshOptions& options, const ProgressCallback& progress = {});

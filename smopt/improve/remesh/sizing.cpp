@@ -70,21 +70,20 @@ double mean_of(const std::vector<double>& sizes) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-/// The largest rate at which the normal turns along an edge, 1/Å.
+/// The rate at which the normal turns along the edges around each vertex, 1/Å: long edges count more, as on short ones it is noise.
 std::vector<double> curvatures(const TriangleMesh& mesh, const VertexRings& rings) {
   std::vector<Vec3> normals(mesh.vertex_count(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles)
     for (const VertexId v : t) normals[v] += doubled_area_vector(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
   for (Vec3& normal : normals) normal.normalize();
-  const auto rate = [&](VertexId v, VertexId w) {
-    const double length = (mesh.points[v] - mesh.points[w]).norm();
-    return length > 0 ? (normals[v] - normals[w]).norm() / length : 0;
-  };
   return averaged(for_all_vertices(rings,
                                    [&](VertexId v) {
-                                     double largest = 0;
-                                     for (const VertexId w : rings.vertices(v)) largest = std::max(largest, rate(v, w));
-                                     return largest;
+                                     double turns2 = 0, lengths2 = 0;
+                                     for (const VertexId w : rings.vertices(v)) {
+                                       turns2 += (normals[v] - normals[w]).squaredNorm();
+                                       lengths2 += (mesh.points[v] - mesh.points[w]).squaredNorm();
+                                     }
+                                     return lengths2 > 0 ? std::sqrt(turns2 / lengths2) : 0;
                                    }),
                   rings);
 }

@@ -1,6 +1,7 @@
 #include "smopt/improve/remesh/volume_ledger.h"
 
 #include <cmath>
+#include <utility>
 
 #include "smopt/geometry/triangle_shape.h"
 
@@ -43,7 +44,7 @@ void VolumeLedger::book(const EditableSurface& surface, const Patch& patch) {
   for (const Triangle& t : patch.new_triangles) change += sextuple_volume_from(surface, patch.center, t);
   for (const FaceId f : patch.old_faces) change -= sextuple_volume_from(surface, patch.center, surface.mesh().triangles[f]);
   if (patch.added != kNoVertex) owed_[patch.added] = 0;
-  if (patch.removed != kNoVertex) change -= owed_[patch.removed];
+  if (patch.removed != kNoVertex) change -= std::exchange(owed_[patch.removed], 0);
   for (const VertexId w : patch.boundary) owed_[w] -= change / static_cast<double>(patch.boundary.size());
 }
 
