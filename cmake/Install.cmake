@@ -6,7 +6,8 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/smopt)
 install(TARGETS smopt_program smopt_tetgen_worker RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS smopt EXPORT smoptTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/smopt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
-        PATTERN cli EXCLUDE PATTERN parallel.h EXCLUDE PATTERN guarded_sweeper.h EXCLUDE)  # used inside only: users need not have TBB's headers
+        PATTERN cli EXCLUDE PATTERN parallel.h EXCLUDE PATTERN guarded_sweeper.h EXCLUDE
+        PATTERN tile_sweep.h EXCLUDE)  # used inside only: users need not have TBB's headers
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT smoptTargets NAMESPACE smopt:: DESTINATION ${package_folder})

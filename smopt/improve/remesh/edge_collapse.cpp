@@ -86,12 +86,12 @@ double gain(const RemeshState& state, const Patch& patch, Purpose purpose) {
   return purpose == Purpose::density ? gain_for_density(state, patch) : gain_for_goals(state, patch);
 }
 
-bool has_short_edge(const RemeshState& state, VertexId v) {
-  return std::ranges::any_of(state.surface.rings().vertices(v), [&](VertexId w) { return state.relative_length(v, w) < kTooShort; });
+bool is_too_short(const RemeshState& state, VertexId v, std::size_t slot) {
+  return state.relative_length(v, state.surface.rings().vertices(v)[slot]) < kTooShort;
 }
 
 }  // namespace
 
-const Operation kEdgeCollapse{propose, gain, has_short_edge, &RemeshReport::collapses, "collapses"};
+const Operation kEdgeCollapse{propose, gain, is_too_short, &RemeshReport::collapses, "collapses"};
 
 }  // namespace smopt

@@ -37,16 +37,26 @@ bool propose(RemeshState& state, VertexId a, std::size_t slot, Patch& patch) {
   return true;
 }
 
-/// By how much the sum of the squares of the four vertices' excess valences falls.
-int valence_gain(const RemeshState& state, const Patch& patch) {
+/// By how much the sum of the squares of the excess valences falls when the edge ab gives way to cd.
+int valence_gain(const RemeshState& state, VertexId a, VertexId b, VertexId c, VertexId d) {
   const auto growing = [&](VertexId v) { return -2 * state.excess(v) - 1; };
   const auto shrinking = [&](VertexId v) { return 2 * state.excess(v) - 1; };
-  return growing(patch.boundary[0]) + shrinking(patch.boundary[1]) + growing(patch.boundary[2]) + shrinking(patch.boundary[3]);
+  return shrinking(a) + shrinking(b) + growing(c) + growing(d);
+}
+
+int valence_gain(const RemeshState& state, const Patch& patch) {
+  return valence_gain(state, patch.boundary[1], patch.boundary[3], patch.boundary[0], patch.boundary[2]);
+}
+
+bool may_be_wanted(const RemeshState& state, VertexId a, std::size_t slot) {
+  const std::span<const VertexId> ring = state.surface.rings().vertices(a);
+  const std::size_t n = ring.size();
+  if (ring[slot] < a) return false;
+  return valence_gain(state, a, ring[slot], ring[slot + 1 < n ? slot + 1 : 0], ring[slot > 0 ? slot - 1 : n - 1]) >= -kTolerableExcess;
 }
 
 double gain_for_density(const RemeshState& state, const Patch& patch) {
   const int valences = valence_gain(state, patch);
-  if (valences < -kTolerableExcess) return 0;
   const PatchShape shape = triangle_shape(state, patch);
   const bool is_wanted = (valences > 0 && shape.after > std::min(shape.before, kMendableQuality)) ||
                          (valences == 0 && shape.gain() > kClearGain) || (shape.before < kNearlyGood && shape.gain() > kLargeGain);
@@ -66,6 +76,6 @@ double gain(const RemeshState& state, const Patch& patch, Purpose purpose) {
 
 }  // namespace
 
-const Operation kEdgeFlip{propose, gain, [](const RemeshState&, VertexId) { return true; }, &RemeshReport::flips, "flips"};
+const Operation kEdgeFlip{propose, gain, may_be_wanted, &RemeshReport::flips, "flips"};
 
 }  // namespace smopt

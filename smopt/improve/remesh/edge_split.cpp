@@ -46,14 +46,13 @@ double gain(const RemeshState& state, const Patch& patch, Purpose purpose) {
   return shape.is_repaired_by(kSmallestRepair) ? std::max(shape.gain() - kCost, kLastResort) : 0;
 }
 
-/// Each edge is looked at from one end.
-bool has_long_edge(const RemeshState& state, VertexId v) {
-  return std::ranges::any_of(state.surface.rings().vertices(v),
-                             [&](VertexId w) { return v < w && state.relative_length(v, w) > kTooLong; });
+bool is_too_long(const RemeshState& state, VertexId v, std::size_t slot) {
+  const VertexId w = state.surface.rings().vertices(v)[slot];
+  return v < w && state.relative_length(v, w) > kTooLong;
 }
 
 }  // namespace
 
-const Operation kEdgeSplit{propose, gain, has_long_edge, &RemeshReport::splits, "splits"};
+const Operation kEdgeSplit{propose, gain, is_too_long, &RemeshReport::splits, "splits"};
 
 }  // namespace smopt

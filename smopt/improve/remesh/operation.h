@@ -20,8 +20,8 @@ struct Operation {
   bool (*propose)(RemeshState& state, VertexId v, std::size_t slot, Patch& patch);
   /// How much is gained by what was described last; 0 or less: it is not wanted.
   double (*gain)(const RemeshState& state, const Patch& patch, Purpose purpose);
-  /// Whether a visit to v for the sake of density may find anything; quick.
-  bool (*is_worth_a_visit)(const RemeshState& state, VertexId v);
+  /// Whether it may be wanted there for the sake of density; quick. Where it is the same from both ends, from one of them only.
+  bool (*may_be_wanted)(const RemeshState& state, VertexId v, std::size_t slot);
   /// Where the report counts it.
   OperationCounts RemeshReport::*counts;
   const char* plural;  ///< its name in messages

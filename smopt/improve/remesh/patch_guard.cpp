@@ -93,7 +93,7 @@ void PatchGuard::draw_outline(const Patch& patch) {
   outline_.set(spokes_, patch.target - patch.center, axis_, Vec3::Zero(), outline_radius_);
   seen_ = settled_ = 0;
   for (std::size_t k = 0; k < patch.boundary.size(); ++k) {
-    if (!is_seen_along(surface_.guarded().cones[patch.boundary[k]], axis_)) continue;
+    if (!stars_.is_ring_vertex_seen_along(patch.boundary[k], axis_)) continue;
     seen_ |= 1U << k;
     settled_ |= (outline_.is_convex_at(k) ? 1U : 0U) << k;
   }

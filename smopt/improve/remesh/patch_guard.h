@@ -6,6 +6,7 @@
 #include "smopt/geometry/triangle_batch.h"
 #include "smopt/geometry/triangle_intersection.h"
 #include "smopt/improve/remesh/editable_surface.h"
+#include "smopt/improve/star_judge.h"
 #include "smopt/improve/vertex_bits.h"
 
 namespace smopt {
@@ -19,7 +20,7 @@ namespace smopt {
 /// Cost: some microseconds.
 class PatchGuard {
  public:
-  explicit PatchGuard(const EditableSurface& surface) : surface_(surface) {}
+  explicit PatchGuard(const EditableSurface& surface) : surface_(surface), stars_(surface.guarded()) {}
 
   /// Until the next call nothing outside of `region` is read (null: the whole surface may be).
   void enter(const TriangleGrid::CubeRange* region) { region_ = region; }
@@ -42,6 +43,7 @@ class PatchGuard {
   [[nodiscard]] TrianglePoints points_of(const Triangle& t) const;
 
   const EditableSurface& surface_;
+  StarJudge stars_;
   const TriangleGrid::CubeRange* region_ = nullptr;
   std::vector<FaceId> near_;  // triangles whose boxes overlap what is swept
   VertexBits bits_;

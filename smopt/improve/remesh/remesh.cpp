@@ -24,6 +24,8 @@ constexpr int kRingsAround = 2;
 constexpr double kRefinement = 0.7;
 constexpr int kRefinedRings = 3;
 constexpr int kRoundsOfRefinement = 3;
+/// It ends when the mesh has grown by more than this: molecules grow by less than 1 %, meshes full of needles would grow without end.
+constexpr double kLargestGrowth = 1.1;
 /// From this round on the sizes are set right for the number of vertices, as long as it is off by more than this part; before, splits are ahead
 /// of collapses.
 constexpr int kFirstAdjustment = 1;
@@ -55,9 +57,10 @@ class Remesher {
       last_round = std::min(std::max(last_round, report_.rounds + 3), options_.rounds + kRoundsOfAdjustment);
     }
     std::vector<VertexId> missing = repaired(those_that_miss(all_vertices()));
+    const auto most = static_cast<std::size_t>(kLargestGrowth * static_cast<double>(all_vertices().size()));
     for (int i = 0; i < options_.refinements && options_.splits; ++i) {
       const std::vector<VertexId> misshapen = filtered(missing, [&](VertexId v) { return has_bad_shape(state_, v); });
-      if (misshapen.empty()) break;
+      if (misshapen.empty() || all_vertices().size() > most) break;
       missing = refined(misshapen);
     }
     give_back_volume();
@@ -80,7 +83,7 @@ class Remesher {
 
   void change_all(const std::vector<VertexId>& active, OperationKind kind) {
     if (!is_enabled(options_, kind)) return;
-    const std::vector<VertexId> visited = filtered(active, [&](VertexId v) { return operation(kind).is_worth_a_visit(state_, v); });
+    const std::vector<VertexId> visited = filtered(active, [&](VertexId v) { return may_be_wanted_around(state_, v, kind); });
     if (kind == kSplit) take_spare_numbers(visited);
     sweep(visited, [kind](SurfaceWorker& worker, VertexId v) { return worker.change(v, kind); });
   }

@@ -41,6 +41,12 @@ bool is_enabled(const RemeshOptions& options, OperationKind kind) {
   return std::array<bool, kOperationKinds>{options.flips, options.collapses, options.splits}[kind];
 }
 
+bool may_be_wanted_around(const RemeshState& state, VertexId v, OperationKind kind) {
+  for (std::size_t slot = 0; slot < state.surface.valence(v); ++slot)
+    if (operation(kind).may_be_wanted(state, v, slot)) return true;
+  return false;
+}
+
 SurfaceWorker::SurfaceWorker(RemeshState& state)
     : state_(state), guard_(state.surface), mover_(state.surface.guarded(), move_rules(state.options.goals), make_bounded_guard(state)) {}
 
@@ -58,9 +64,8 @@ Visit SurfaceWorker::change(VertexId v, OperationKind kind) {
 
 void SurfaceWorker::add_candidates(VertexId v, OperationKind kind, Purpose purpose) {
   if (!is_enabled(state_.options, kind)) return;
-  const bool is_both_ways = kind == kCollapse || purpose == Purpose::goals;  // else each edge is looked at from one end
   for (std::size_t slot = 0; slot < state_.surface.valence(v); ++slot) {
-    if (!is_both_ways && state_.surface.rings().vertices(v)[slot] < v) continue;
+    if (purpose == Purpose::density && !operation(kind).may_be_wanted(state_, v, slot)) continue;
     if (!operation(kind).propose(state_, v, slot, patch_)) continue;
     const double gain = operation(kind).gain(state_, patch_, purpose);
     if (gain > 0) candidates_.push_back({gain, kind, slot});

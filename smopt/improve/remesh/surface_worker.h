@@ -78,5 +78,7 @@ class SurfaceWorker {
 const Operation& operation(OperationKind kind);
 /// Whether the options allow it.
 bool is_enabled(const RemeshOptions& options, OperationKind kind);
+/// Whether it may be wanted at an edge of v for the sake of density.
+bool may_be_wanted_around(const RemeshState& state, VertexId v, OperationKind kind);
 
 }  // namespace smopt
