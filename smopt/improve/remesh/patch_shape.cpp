@@ -13,6 +13,8 @@ constexpr double kBest = std::numeric_limits<double>::infinity();
 /// Of the cosine between two neighbouring normals: bends that operations may make whatever was there before. Surfaces that are sampled well bend
 /// by less.
 constexpr double kHarmlessCosine = 0.5;
+/// A split leaves the bends as they are, but for rounding.
+constexpr double kCosineRounding = 1e-9;
 
 Vec3 normal_of(const EditableSurface& surface, const Triangle& t) {
   return doubled_area_vector(surface.point(t[0]), surface.point(t[1]), surface.point(t[2])).normalized();
@@ -87,7 +89,7 @@ PatchShape bend_shape(const RemeshState& state, const Patch& patch) {
 
 bool keeps_bends(const RemeshState& state, const Patch& patch) {
   const double after = cosine_after(state.surface, patch);
-  return after >= kHarmlessCosine || after >= cosine_before(state.surface, patch);
+  return after >= kHarmlessCosine || after >= cosine_before(state.surface, patch) - kCosineRounding;
 }
 
 double star_quality_at(const RemeshState& state, VertexId v, const Vec3& x) {

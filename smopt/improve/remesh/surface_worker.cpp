@@ -127,7 +127,12 @@ Visit SurfaceWorker::relax(VertexId v) {
 }
 
 Visit SurfaceWorker::give_back(VertexId v) {
-  return move(v, keeping_volume(v, Vec3::Zero()));
+  const Vec3& x = state_.surface.point(v);
+  const Vec3 step = keeping_volume(v, Vec3::Zero());
+  const StarShape now = star_shape_at(v, x);
+  for (const double part : kStepParts)
+    if (!is_worse(star_shape_at(v, x + part * step), now)) return move(v, part * step);
+  return Visit::refused;
 }
 
 Vec3 SurfaceWorker::keeping_volume(VertexId v, const Vec3& step) const {
@@ -149,14 +154,16 @@ SurfaceWorker::StarShape SurfaceWorker::star_shape_at(VertexId v, const Vec3& x)
   return {star_quality_at(state_, v, x), star_bend_at(state_, v, x)};
 }
 
-/// By how much the worst triangle of the star gains at x, or, where all reach the goals, its worst bend. Neither may come to miss a goal, or miss
-/// it by more, for the other's sake.
+/// Whether triangles or bends come to miss a goal, or miss it by more.
+bool SurfaceWorker::is_worse(const StarShape& then, const StarShape& now) {
+  return then.triangles < std::min(now.triangles, 1.0) || then.bends < std::min(now.bends, 1.0);
+}
+
+/// By how much the worst triangle of the star gains at x, or, where all reach the goals, its worst bend; 0 where the other is worse.
 double SurfaceWorker::gain_of_going_to(VertexId v, const Vec3& x, const StarShape& now) const {
-  const double triangles = star_quality_at(state_, v, x);
-  if (triangles < std::min(now.triangles, 1.0)) return 0;
-  const double bends = star_bend_at(state_, v, x);
-  if (bends < std::min(now.bends, 1.0)) return 0;
-  return now.triangles < 1 ? triangles - now.triangles : bends - now.bends;
+  const StarShape then = star_shape_at(v, x);
+  if (is_worse(then, now)) return 0;
+  return now.triangles < 1 ? then.triangles - now.triangles : then.bends - now.bends;
 }
 
 Vec3 SurfaceWorker::best_step(VertexId v) const {

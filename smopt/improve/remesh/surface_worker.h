@@ -31,7 +31,7 @@ class SurfaceWorker {
   Visit change(VertexId v, OperationKind kind);
   /// Moves v towards the centroid of its star. Between two calls of `enter`, either `relax` or others.
   Visit relax(VertexId v);
-  /// Moves v so that it gives back volume, no farther. As `relax`.
+  /// Moves v so that it gives back volume, as far as no goal is missed for that. As `relax`.
   Visit give_back(VertexId v);
   /// Where a goal is missed around v: moves it to where that is better, or makes the operation that gains most.
   Visit repair(VertexId v);
@@ -60,6 +60,7 @@ class SurfaceWorker {
     double triangles, bends;
   };
   [[nodiscard]] StarShape star_shape_at(VertexId v, const Vec3& x) const;
+  [[nodiscard]] static bool is_worse(const StarShape& then, const StarShape& now);
   [[nodiscard]] double gain_of_going_to(VertexId v, const Vec3& x, const StarShape& now) const;
   [[nodiscard]] Vec3 best_step(VertexId v) const;
 
