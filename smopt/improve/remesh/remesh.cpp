@@ -31,7 +31,7 @@ constexpr double kLargestGrowth = 1.1;
 constexpr int kFirstAdjustment = 1;
 constexpr double kTolerableMiss = 0.02;
 /// Rounds that may be added for that.
-constexpr int kRoundsOfAdjustment = 4;
+constexpr int kRoundsOfAdjustment = 6;
 /// Sweeps at the end in which vertices give back volume, at most.
 constexpr int kPaymentSweeps = 4;
 
@@ -43,8 +43,9 @@ class Remesher {
         state_(mesh, options),
         workers_([this] { return std::make_unique<SurfaceWorker>(state_); }) {
     if (std::isfinite(options.deviation)) state_.bound.emplace(mesh, options.deviation);
-    state_.sizes = find_sizes(mesh, state_.surface.rings(), options);
-    target_ = options.vertices > 0 ? options.vertices : mesh.vertex_count();
+    WantedSizes wanted = find_sizes(mesh, state_.surface.rings(), options);
+    state_.sizes = std::move(wanted.edges);
+    wanted_vertices_ = wanted.vertices;
   }
 
   RemeshReport run() {
@@ -213,10 +214,10 @@ class Remesher {
     return vertices;
   }
 
-  /// Where a number of vertices is aimed at and missed: sizes become as much larger or smaller. Returns whether they did.
+  /// Where the number of vertices is off, sizes become as much larger or smaller. Returns whether they did.
   bool adjust_sizes() {
-    const double excess = static_cast<double>(all_vertices().size()) / static_cast<double>(target_);
-    if (!options_.keeps_count() || std::abs(excess - 1) <= kTolerableMiss) return false;
+    const double excess = static_cast<double>(all_vertices().size()) / wanted_vertices_;
+    if (std::abs(excess - 1) <= kTolerableMiss) return false;
     for (double& size : state_.sizes) size *= std::sqrt(excess);
     return true;
   }
@@ -237,7 +238,7 @@ class Remesher {
   const ProgressCallback& progress_;
   RemeshState state_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceWorker>> workers_;
-  std::size_t target_ = 0;
+  double wanted_vertices_ = 0;
   RemeshReport report_;
 };
 

@@ -33,11 +33,6 @@ struct RemeshOptions {
   double edge_length = 0;     ///< Å, for uniform sizing; 0: by the number of vertices
   double chord_error = 0.02;  ///< Å, for curvature sizing; > 0
   double deviation = std::numeric_limits<double>::infinity();  ///< Å; no point of input or output is farther than this from the other; > 0
-
-  /// Whether a number of vertices is aimed at.
-  [[nodiscard]] bool keeps_count() const {
-    return vertices > 0 || sizing == Sizing::density || (sizing == Sizing::uniform && !(edge_length > 0));
-  }
 };
 
 /// \throws InvalidOption naming an option that is out of its range.

@@ -110,14 +110,14 @@ std::vector<double> curvature_sizes(const TriangleMesh& mesh, const VertexRings&
                 mesh, rings);
 }
 
-/// The factor for all sizes with which equilateral triangles would cover the mesh with as many vertices.
-double factor_for_vertices(const TriangleMesh& mesh, const std::vector<double>& sizes, double vertices) {
+/// How many vertices a mesh of equilateral triangles of these sizes would have.
+double equilateral_vertices(const TriangleMesh& mesh, const std::vector<double>& sizes) {
   double triangles = 0;
   for (const Triangle& t : mesh.triangles) {
     const double size = (sizes[t[0]] + sizes[t[1]] + sizes[t[2]]) / 3;
     if (size > 0) triangles += area_of(mesh, t) / (kEquilateralArea * size * size);
   }
-  return std::sqrt(triangles / (2 * vertices));
+  return triangles / 2;
 }
 
 std::vector<double> relative_sizes(const TriangleMesh& mesh, const VertexRings& rings, const RemeshOptions& options) {
@@ -132,15 +132,21 @@ std::vector<double> relative_sizes(const TriangleMesh& mesh, const VertexRings& 
   return {};
 }
 
+/// \param equilateral  as many as the sizes would give by themselves.
+double wanted_vertices(const TriangleMesh& mesh, const RemeshOptions& options, double equilateral) {
+  if (options.vertices > 0) return static_cast<double>(options.vertices);
+  const bool are_absolute = options.sizing == Sizing::curvature || (options.sizing == Sizing::uniform && options.edge_length > 0);
+  return are_absolute ? equilateral : static_cast<double>(mesh.vertex_count());
+}
+
 }  // namespace
 
-std::vector<double> find_sizes(const TriangleMesh& mesh, const VertexRings& rings, const RemeshOptions& options) {
-  std::vector<double> sizes = relative_sizes(mesh, rings, options);
-  const std::size_t vertices = options.vertices > 0 || !options.keeps_count() ? options.vertices : mesh.vertex_count();
-  if (vertices == 0) return sizes;
-  const double factor = factor_for_vertices(mesh, sizes, static_cast<double>(vertices) / kSurplus);
-  for (double& size : sizes) size *= factor;
-  return sizes;
+WantedSizes find_sizes(const TriangleMesh& mesh, const VertexRings& rings, const RemeshOptions& options) {
+  WantedSizes wanted{relative_sizes(mesh, rings, options), 0};
+  const double equilateral = equilateral_vertices(mesh, wanted.edges);
+  wanted.vertices = wanted_vertices(mesh, options, equilateral);
+  for (double& size : wanted.edges) size *= std::sqrt(kSurplus * equilateral / wanted.vertices);
+  return wanted;
 }
 
 }  // namespace smopt
