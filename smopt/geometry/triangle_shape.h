@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "smopt/geometry/vec3.h"
 
@@ -35,6 +36,31 @@ inline double squared_sine_of_smallest_angle(const Vec3& a, const Vec3& b, const
   const double shortest = std::min({ab, bc, ca});
   const double product = ab * bc * ca;
   return product > 0 ? p.cross(q).squaredNorm() * shortest / product : 0.0;
+}
+
+inline constexpr double kDegrees = 180 / std::numbers::pi;  ///< in a radian
+
+/// A triangle's angles (radians) and its shortest/longest edge; 0, π and 0 where two corners are in one place.
+struct TriangleShape {
+  double smallest_angle = 0;
+  double largest_angle = std::numbers::pi;
+  double edge_ratio = 0;
+};
+
+/// Cost: two arc cosines.
+inline TriangleShape shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  double x = (b - a).squaredNorm(), y = (c - b).squaredNorm(), z = (a - c).squaredNorm();
+  if (x > y) std::swap(x, y);
+  if (y > z) std::swap(y, z);
+  if (x > y) std::swap(x, y);
+  if (!(x > 0)) return {};
+  return {std::acos(std::min(1.0, (y + z - x) / (2 * std::sqrt(y * z)))), std::acos(std::max(-1.0, (x + y - z) / (2 * std::sqrt(x * y)))),
+          std::sqrt(x / z)};
+}
+
+/// The angle between two neighbouring triangles (π: in one plane), by the cosine between their unit normals; 0 where that is not a number.
+inline double dihedral_angle(double cosine_of_normals) {
+  return std::isnan(cosine_of_normals) ? 0 : std::acos(std::clamp(-cosine_of_normals, -1.0, 1.0));
 }
 
 /// Which triangles count as low quality (Liu et al. 2017, section 0.3: "low edge ratio or containing tiny angles").

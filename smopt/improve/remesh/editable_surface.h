@@ -16,7 +16,8 @@ namespace smopt {
 /// Threads may edit it at the same time when each keeps to a region of its own (see `TriangleGrid`).
 class EditableSurface {
  public:
-  /// No ring grows beyond this, so that each stays where it stands in memory; one that is larger from the start may only shrink.
+  /// No ring grows beyond this, so that each stays where it stands in memory; one that is larger from the start
+  /// not beyond its first size.
   static constexpr std::uint32_t kMaxValence = 12;
 
   /// \throws InvalidMesh when the mesh is not a closed, oriented manifold. Cost: O(n), all cores.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include "smopt/geometry/triangle_shape.h"
 #include "smopt/improve/remesh/patch_shape.h"
@@ -14,8 +14,6 @@
 
 namespace smopt {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 enum Goal : std::size_t { kMinAngle, kMaxAngle, kEdgeRatio, kDihedral, kValence, kGoals };
 
@@ -28,7 +26,7 @@ struct Worst {
 
   void add(double value, double limit, std::uint32_t id, VertexId vertex) {
     missing += value > limit ? 1 : 0;
-    if (value > badness || (value == badness && id < element)) {
+    if (value > badness || (value == badness && std::pair(id, vertex) < std::pair(element, at))) {
       badness = value;
       element = id;
       at = vertex;
@@ -36,7 +34,7 @@ struct Worst {
   }
   void unite(const Worst& other) {
     const std::size_t sum = missing + other.missing;
-    if (other.badness > badness || (other.badness == badness && other.element < element)) *this = other;
+    if (other.badness > badness || (other.badness == badness && std::pair(other.element, other.at) < std::pair(element, at))) *this = other;
     missing = sum;
   }
 };
@@ -77,21 +75,14 @@ class GoalScan {
     }
   }
   void add_triangle(FaceId f, const Triangle& t, VertexId v, AllWorst& worst) const {
-    std::array<double, 3> lengths2{};
-    for (std::size_t i = 0; i < 3; ++i) lengths2[i] = (surface_.point(t[i]) - surface_.point(t[(i + 1) % 3])).squaredNorm();
-    std::ranges::sort(lengths2);
-    const auto [x, y, z] = lengths2;
-    const bool is_degenerate = !(x > 0);
-    const double smallest = is_degenerate ? 0 : std::acos(std::min(1.0, (y + z - x) / (2 * std::sqrt(y * z)))) * kDegrees;
-    const double largest = is_degenerate ? 180 : std::acos(std::max(-1.0, (x + y - z) / (2 * std::sqrt(x * y)))) * kDegrees;
-    worst[kMinAngle].add(-smallest, limits_[kMinAngle], f, v);
-    worst[kMaxAngle].add(largest, limits_[kMaxAngle], f, v);
-    worst[kEdgeRatio].add(is_degenerate ? 0 : -std::sqrt(x / z), limits_[kEdgeRatio], f, v);
+    const TriangleShape shape = shape_of(surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2]));
+    worst[kMinAngle].add(-shape.smallest_angle * kDegrees, limits_[kMinAngle], f, v);
+    worst[kMaxAngle].add(shape.largest_angle * kDegrees, limits_[kMaxAngle], f, v);
+    worst[kEdgeRatio].add(-shape.edge_ratio, limits_[kEdgeRatio], f, v);
   }
   void add_edge(const Triangle& left, const Triangle& right, std::uint32_t id, VertexId v, AllWorst& worst) const {
-    const double cosine = normal_of(left).dot(normal_of(right));
-    const double dihedral = std::isnan(cosine) ? 0 : std::acos(std::clamp(-cosine, -1.0, 1.0)) * kDegrees;
-    worst[kDihedral].add(-dihedral, limits_[kDihedral], id, v);
+    const double dihedral = dihedral_angle(normal_of(left).dot(normal_of(right)));
+    worst[kDihedral].add(-dihedral * kDegrees, limits_[kDihedral], id, v);
   }
   [[nodiscard]] Vec3 normal_of(const Triangle& t) const {
     return doubled_area_vector(surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])).normalized();
@@ -115,6 +106,8 @@ const char* name_of(Verdict verdict) {
       return "would meet another triangle";
     case Verdict::deviates:
       return "would leave the bound on the deviation";
+    case Verdict::refused:
+      return "refused";
     default:
       return "possible";
   }

@@ -8,6 +8,7 @@
 
 #include "smopt/error.h"
 #include "smopt/improve/remesh/goal_check.h"
+#include "smopt/improve/remesh/patch_shape.h"
 #include "smopt/improve/remesh/remesh_state.h"
 #include "smopt/improve/remesh/sizing.h"
 #include "smopt/improve/remesh/surface_worker.h"
@@ -96,17 +97,33 @@ class Remesher {
       std::ranges::fill(state_.is_touched, 0);
       report_progress(progress_, "repairs", static_cast<double>(i) / options_.repairs);
       take_spare_numbers(missing);
-      sweep(missing, [](SurfaceWorker& worker, VertexId v) { return worker.repair(v); });
+      sweep(worst_first(missing), [](SurfaceWorker& worker, VertexId v) { return worker.repair(v); });
       const std::vector<VertexId> changed = around_touched();
       missing = those_that_miss(united(missing, changed));
-      if (changed.empty()) break;
+      has_come_to_rest_ = changed.empty();
+      if (has_come_to_rest_) break;
     }
     return missing;
+  }
+
+  /// Each tile and each block of it will be visited in this order.
+  [[nodiscard]] std::vector<VertexId> worst_first(const std::vector<VertexId>& vertices) const {
+    std::vector<std::pair<double, VertexId>> order(vertices.size());
+    for_ranges_in_parallel(vertices.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        order[i] = {star_quality_at(state_, vertices[i], state_.surface.point(vertices[i])), vertices[i]};
+    });
+    std::ranges::sort(order);
+    std::vector<VertexId> result;
+    result.reserve(order.size());
+    for (const auto& [quality, v] : order) result.push_back(v);
+    return result;
   }
 
   /// Where the surface has features that are too small for the triangles there, nothing helps but smaller ones: edges become shorter around the
   /// vertices, and rounds and repairs go on from there. Returns what still misses a goal.
   std::vector<VertexId> refined(const std::vector<VertexId>& misshapen) {
+    ++report_.refinements;
     std::vector<VertexId> region = with_rings(misshapen, kRefinedRings);
     for (const VertexId v : region) state_.sizes[v] *= kRefinement;
     std::vector<VertexId> visited = region;
@@ -231,7 +248,7 @@ class Remesher {
     take_spare_numbers({0});
     report_.goals = check_goals(state_, *workers_.local());
     const bool is_reached = std::ranges::all_of(report_.goals, [](const GoalOutcome& goal) { return goal.missing == 0; });
-    report_.stopped_because = is_reached ? "all goals reached" : "nothing helps any more";
+    report_.stopped_because = is_reached ? "all goals reached" : has_come_to_rest_ ? "nothing helps any more" : "repairs";
   }
 
   const RemeshOptions& options_;
@@ -239,6 +256,7 @@ class Remesher {
   RemeshState state_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceWorker>> workers_;
   double wanted_vertices_ = 0;
+  bool has_come_to_rest_ = false;  // the last repair changed nothing
   RemeshReport report_;
 };
 

@@ -38,7 +38,8 @@ struct RemeshOptions {
 /// \throws InvalidOption naming an option that is out of its range.
 void require_valid(const RemeshOptions& options);
 
-/// How often an operation was made, and how often the guard, or the bound on the deviation, refused one that was wanted.
+/// How often an operation was made, and how often one that was wanted was refused: by the guard or the bound on the deviation, because it would
+/// bend the surface sharply, or because a vertex would get too many neighbours.
 struct OperationCounts {
   std::size_t done = 0;
   std::size_t refused = 0;
@@ -53,8 +54,9 @@ struct OperationCounts {
 struct RemeshReport {
   OperationCounts flips, collapses, splits;
   MoveCounts moves;
-  int rounds = 0;
-  int repairs = 0;
+  int rounds = 0;   ///< without those of refinements
+  int repairs = 0;  ///< sweeps
+  int refinements = 0;
   double volume_owed = 0;          ///< Å³ that operations took away and no move could give back
   std::vector<GoalOutcome> goals;  ///< each, in the order of `RemeshGoals`
   std::string stopped_because;
@@ -67,7 +69,7 @@ struct RemeshReport {
 ///
 /// Rounds of four operations in the order of Botsch and Kobbelt (A remeshing approach to multiresolution modeling, 2004): long edges are split,
 /// short ones collapsed, edges flipped where valences or angles gain, vertices relaxed towards the centroid of their star; then repairs: around
-/// what misses a goal, worst first, the operation that gains most (after Hu et al., Error-bounded and feature preserving surface remeshing with
+/// what misses a goal, worst first in each block of space, the operation that gains most (after Hu et al., Error-bounded and feature preserving surface remeshing with
 /// minimal angle improvement, 2017). Every operation is allowed by an exact test against the whole surface of all that it sweeps over: no pair of
 /// triangles intersects afterwards that did not before, and the topology is unchanged. Vertices move within the plane across their star's area
 /// vector, and give back along it what volume the other operations took.

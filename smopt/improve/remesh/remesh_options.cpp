@@ -36,6 +36,7 @@ void RemeshReport::append(const RemeshReport& next) {
   moves += next.moves;
   rounds += next.rounds;
   repairs += next.repairs;
+  refinements += next.refinements;
   volume_owed += next.volume_owed;
   goals = next.goals;
   stopped_because = next.stopped_because;

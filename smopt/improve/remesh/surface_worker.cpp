@@ -56,7 +56,17 @@ void SurfaceWorker::enter(std::span<const VertexId> group, const TriangleGrid::C
   mover_.enter(group, region);
 }
 
+/// Rings of vertices outside may be changed by others at this moment; those of the ring of v are looked at for nearly every question about v.
+bool SurfaceWorker::is_star_within_region(VertexId v) const {
+  if (region_ == nullptr) return true;
+  const TriangleGrid& grid = state_.surface.guarded().grid;
+  Box box = grid.box_of(state_.surface.point(v));
+  for (const VertexId w : state_.surface.rings().vertices(v)) box.unite(grid.box_of(state_.surface.point(w)));
+  return region_->contains(grid.reading(box));
+}
+
 Visit SurfaceWorker::change(VertexId v, OperationKind kind) {
+  if (!is_star_within_region(v)) return Visit::postponed;
   candidates_.clear();
   add_candidates(v, kind, Purpose::density);
   return candidates_.empty() ? Visit::unmoved : make_best(v);
@@ -121,12 +131,14 @@ void SurfaceWorker::make(const Patch& patch) {
 }
 
 Visit SurfaceWorker::relax(VertexId v) {
+  if (!is_star_within_region(v)) return Visit::postponed;
   const Vec3 step = keeping_volume(v, step_to_centroid(state_.surface, v));
   const double least = kLeastStepRel * state_.sizes[v];
   return step.squaredNorm() < least * least ? Visit::unmoved : move(v, step);
 }
 
 Visit SurfaceWorker::give_back(VertexId v) {
+  if (!is_star_within_region(v)) return Visit::postponed;
   const Vec3& x = state_.surface.point(v);
   const Vec3 step = keeping_volume(v, Vec3::Zero());
   const StarShape now = star_shape_at(v, x);
@@ -185,6 +197,7 @@ Vec3 SurfaceWorker::best_step(VertexId v) const {
 }
 
 Visit SurfaceWorker::repair(VertexId v) {
+  if (!is_star_within_region(v)) return Visit::postponed;
   const StarShape shape = star_shape_at(v, state_.surface.point(v));
   const bool misses = shape.triangles < 1 || shape.bends < 1;
   const bool is_odd = std::abs(state_.excess(v)) > state_.options.goals.valence_spread;
@@ -215,7 +228,7 @@ void SurfaceWorker::judge_all(VertexId v, std::array<VerdictCounts, kOperationKi
         count(operations[kind], judge(patch_));
     }
   }
-  count(moves, best_step(v).isZero() ? Verdict::no_gain : Verdict::meets);
+  count(moves, best_step(v).isZero() ? Verdict::no_gain : Verdict::refused);
 }
 
 }  // namespace smopt

@@ -12,7 +12,7 @@
 namespace smopt {
 
 /// What became of an operation that is possible and wanted, or why it is not.
-enum class Verdict : std::uint8_t { done, postponed, not_manifold, no_gain, bends, too_many_neighbours, meets, deviates, kCount };
+enum class Verdict : std::uint8_t { done, postponed, not_manifold, no_gain, bends, too_many_neighbours, meets, deviates, refused, kCount };
 
 /// How often each verdict was given.
 using VerdictCounts = std::array<std::size_t, static_cast<std::size_t>(Verdict::kCount)>;
@@ -48,6 +48,7 @@ class SurfaceWorker {
     std::size_t slot;
   };
 
+  [[nodiscard]] bool is_star_within_region(VertexId v) const;
   void add_candidates(VertexId v, OperationKind kind, Purpose purpose);
   Visit make_best(VertexId v);
   [[nodiscard]] Verdict judge(const Patch& patch);
