@@ -111,10 +111,12 @@ void add_improve(CLI::App& app, Context& context) {
       "The mesh must be closed and manifold. With nothing but a mesh and -o, this does what the paper did: cavities and redundant points "
       "are\n"
       "deleted, then 100 rounds of Laplacian smoothing whose steps are halved until no two triangles intersect.\n"
+      "--method smopt2 changes the connectivity too, and is the one to pick for a simulation: regular triangles everywhere, the volume kept.\n"
       "`smopt methods` lists all methods with their options; `smopt improve --method NAME --help` shows one method's.\n"
       "\n"
       "Examples:\n"
       "  smopt improve surface.off -o improved.off --report report.json\n"
+      "  smopt improve surface.off -o ready.off --method smopt2 --verify\n"
       "  smopt improve surface.ply -o improved.ply --step volume-preserving --verify\n"
       "  smopt improve surface.off -o smooth.off --method laplacian --rounds 10");
   command->add_option("mesh", arguments->run.input, "the mesh (" + mesh_format_names() + ", each also .gz; - for OFF)")->required();
