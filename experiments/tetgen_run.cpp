@@ -37,7 +37,7 @@ bool is_hopeless(const TetgenTrial& trial, const Json& outcomes) {
 std::vector<TetgenTrial> tetgen_trials(std::string_view method) {
   const double usual_limit = metrics::TetrahedralizeOptions().time_limit_seconds;
   std::vector<TetgenTrial> trials = {{"p", usual_limit}, {"pY", usual_limit}};
-  if (method == kInitial || method == kSmopt || method == kSmopt2) trials.push_back({kQualitySwitches, kQualityTimeLimitSeconds});
+  if (method == kSmopt || method == kSmopt2) trials.push_back({kQualitySwitches, kQualityTimeLimitSeconds});
   return trials;
 }
 

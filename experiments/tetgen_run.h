@@ -20,7 +20,8 @@ struct TetgenTrial {
 /// gets (65 000 good vertices take one).
 inline constexpr const char* kQualitySwitches = "pq1.4";
 
-/// `p` and `pY` of every case; tetrahedra of bounded shape, too, of those that a simulation would take: the initial mesh, smopt's, smopt2's.
+/// `p` and `pY` of every case; tetrahedra of bounded shape, too, of smopt's mesh and smopt2's (initial meshes would take all of the time: that of
+/// the AChE monomer has not ended after five minutes).
 std::vector<TetgenTrial> tetgen_trials(std::string_view method);
 
 /// A record's `tetgen`: by switches what `smopt tetrahedralize --json` prints, whatever becomes of it. Where `p` fails, nothing else that
