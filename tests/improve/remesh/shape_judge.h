@@ -15,8 +15,8 @@ namespace smopt::testing {
 struct GoalMeasure {
   std::string name;
   double worst = 0;
-  std::size_t surely_missing = 0;    ///< by more than rounding
-  std::size_t perhaps_missing = 0;   ///< these, and those that rounding decides about
+  std::size_t surely_missing = 0;   ///< by more than rounding
+  std::size_t perhaps_missing = 0;  ///< these, and those that rounding decides about
 };
 
 /// In the order of `RemeshGoals`. Dihedral angles are the smaller of inside and outside; of valences the largest distance from 6 counts.
