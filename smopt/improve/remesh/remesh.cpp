@@ -31,8 +31,8 @@ constexpr double kLargestGrowth = 1.1;
 /// of collapses.
 constexpr int kFirstAdjustment = 1;
 constexpr double kTolerableMiss = 0.02;
-/// Rounds that may be added for that.
-constexpr int kRoundsOfAdjustment = 6;
+/// Rounds after such a change, and that may be added for that in all.
+constexpr int kRoundsToSettle = 2, kRoundsOfAdjustment = 6;
 /// Sweeps at the end in which vertices give back volume, at most.
 constexpr int kPaymentSweeps = 4;
 
@@ -50,14 +50,7 @@ class Remesher {
   }
 
   RemeshReport run() {
-    std::vector<VertexId> active = all_vertices();
-    int last_round = options_.rounds;
-    for (; report_.rounds < last_round && !active.empty(); ++report_.rounds) {
-      active = run_round(active);
-      if (report_.rounds < kFirstAdjustment || !adjust_sizes()) continue;
-      active = all_vertices();
-      last_round = std::min(std::max(last_round, report_.rounds + 3), options_.rounds + kRoundsOfAdjustment);
-    }
+    run_rounds();
     std::vector<VertexId> missing = repaired(those_that_miss(all_vertices()));
     const auto most = static_cast<std::size_t>(kLargestGrowth * static_cast<double>(all_vertices().size()));
     for (int i = 0; i < options_.refinements && options_.splits; ++i) {
@@ -73,6 +66,19 @@ class Remesher {
   [[nodiscard]] TriangleMesh result() const { return state_.surface.compacted(); }
 
  private:
+  /// As many as are asked for, and some more while the number of vertices is off.
+  void run_rounds() {
+    std::vector<VertexId> active = all_vertices();
+    int last = options_.rounds;
+    for (; report_.rounds < last && !active.empty(); ++report_.rounds) {
+      active = run_round(active);
+      const bool has_settled = report_.rounds >= kFirstAdjustment || active.empty();
+      if (!has_settled || !adjust_sizes()) continue;
+      active = all_vertices();
+      last = std::min(std::max(last, report_.rounds + 1 + kRoundsToSettle), options_.rounds + kRoundsOfAdjustment);
+    }
+  }
+
   /// Splits, collapses, flips and relaxation. Returns what is to be looked at next.
   std::vector<VertexId> run_round(const std::vector<VertexId>& active) {
     std::ranges::fill(state_.is_touched, 0);
@@ -233,6 +239,7 @@ class Remesher {
 
   /// Where the number of vertices is off, sizes become as much larger or smaller. Returns whether they did.
   bool adjust_sizes() {
+    if (!options_.splits || !options_.collapses) return false;
     const double excess = static_cast<double>(all_vertices().size()) / wanted_vertices_;
     if (std::abs(excess - 1) <= kTolerableMiss) return false;
     for (double& size : state_.sizes) size *= std::sqrt(excess);

@@ -21,7 +21,7 @@ enum class Sizing {
 
 struct RemeshOptions {
   RemeshGoals goals;
-  int rounds = 4;       ///< of splits, collapses, flips and relaxation; ≥ 0
+  int rounds = 4;       ///< of splits, collapses, flips and relaxation; up to 6 more as long as the number of vertices is off; ≥ 0
   int repairs = 30;     ///< sweeps over what misses a goal, at most, each time; ≥ 0
   int refinements = 6;  ///< how often edges are made shorter where triangles miss a goal and nothing helps, which adds vertices; ≥ 0
   bool flips = true;
