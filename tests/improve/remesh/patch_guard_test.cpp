@@ -156,9 +156,16 @@ TEST(PatchGuard, RefusesToPassThroughASheetWithoutTouchingItAtTheEnd) {
 }
 
 TEST(PatchGuard, RefusesToLeaveAComponentOutsideWithItsCornersOnTheWalls) {
-  // All corners of the octahedron are in the planes between the tetrahedra that the collapse sweeps, or on both sides of one.
-  const TriangleMesh small = translated(scaled(octahedron(), 0.125), {2, 2, 3});
-  for (const VertexId w : {top(1, 1), top(2, 3)}) EXPECT_FALSE(is_ok(joined(tent(8), small), kCollapse, top(2, 2), w));
+  // The collapse goes along the line from u to w; the tetrahedra that it sweeps have walls with this line and (1, 1), (2, 1), (3, 2).
+  const TriangleMesh mesh = tent(8);
+  const Vec3 u = mesh.points[top(2, 2)], w = mesh.points[top(2, 3)];
+  const auto on_wall = [&](double part, VertexId r) { return Vec3(part * u + (0.5 - part) * w + 0.5 * mesh.points[r]); };
+  TriangleMesh small{{on_wall(0.25, top(1, 1)), on_wall(0.375, top(1, 1)), on_wall(0.25, top(2, 1)), on_wall(0.25, top(3, 2))},
+                     {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+  if (enclosed_volume(small) < 0) small = reversed(small);
+  ASSERT_THAT(joined(mesh, small), HasNoIntersections());
+  EXPECT_TRUE(is_ok(mesh, kCollapse, top(2, 2), top(2, 3)));
+  EXPECT_FALSE(is_ok(joined(mesh, small), kCollapse, top(2, 2), top(2, 3)));
 }
 
 // ---- Against an oracle ----
