@@ -4,7 +4,7 @@ plot.py DIR [--molecules A,B] [--methods A,B] [--compared A,B] [--dump FILE]
 
 Reads DIR/records/<molecule>/<method>.json and writes DIR/figures/{fig5,fig6,fig7,methods}.{svg,png}; the same bytes for the same records.
 With --dump what was drawn is written to FILE as JSON: {"fig6": [{"row": 0, "column": 0, "bars": [[left, width, height], ...], "points": {}},
-...], "methods": [{"row": 0, "column": 0, "bars": [], "points": {"molecule": [[x, y], ...], ...}}, ...]}.
+...], "methods": [{"row": 0, "column": 0, "bars": [], "points": {"molecule": [[x, y], ...], ...}, "notes": ["failed", ...]}, ...]}.
 """
 
 import argparse
@@ -243,6 +243,7 @@ MOLECULE_COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B
 ROW_SHARE = 0.62  # of a method's row over which its molecules are spread
 OWN_METHODS = ("smopt", "smopt2")
 LEGEND_INCHES = 0.4
+NOTE_POINTS = 6  # a row of 24 points has room for the notes of two molecules
 
 
 def offset_of(index, count):
@@ -263,6 +264,35 @@ def shown_value(record, value_of, scale):
     """None where the case failed, the method diverged, or a logarithmic axis has no place for the value."""
     value = value_of(record) if is_done(record) and not number(record, "diverged_at_step") else None
     return None if scale == "log" and value == 0 else value
+
+
+def unresolved_samples(record):
+    """Samples of the result without a foot on the level set, which are not in its mean distance."""
+    return number(record, "level_set_distance", "after", "unresolved") or 0
+
+
+def why_no_value(record, value_of, scale):
+    """Of a case that ended well: why its row has no point in this panel, or what its point leaves out; "" where there is nothing to say."""
+    if not is_done(record) or number(record, "diverged_at_step"):
+        return ""  # told beside the first panel
+    value = value_of(record)
+    if value is None:
+        return "none"
+    if shown_value(record, value_of, scale) is None:
+        return f"{value:g}"
+    unresolved = unresolved_samples(record) if value_of is level_set_ratio else 0
+    return f"{unresolved:g} without a foot" if unresolved else ""
+
+
+def tell_unshown(axes, run, value_of, scale):
+    """At the right end of the molecule's line in the method's row, in the molecule's colour."""
+    for index, molecule in enumerate(run.molecules):
+        for row, method in enumerate(run.compared):
+            note = why_no_value(run.record(molecule, method), value_of, scale)
+            if note:
+                axes.annotate(note, (1, row + offset_of(index, len(run.molecules))), xycoords=("axes fraction", "data"), xytext=(-2, 0),
+                              textcoords="offset points", ha="right", va="center", fontsize=NOTE_POINTS, style="italic",
+                              color=MOLECULE_COLOURS[index % len(MOLECULE_COLOURS)])
 
 
 def draw_compared_points(axes, run, value_of, scale):
@@ -323,6 +353,7 @@ def methods_figure(run):
     for column, axes in enumerate(panels[0]):
         draw_compared_points(axes, run, *COMPARED[column][1:3])
         style_compared_axes(axes, column, run)
+        tell_unshown(axes, run, *COMPARED[column][1:3])
     first = panels[0][0]
     tell_missing(first, run)
     first.set_yticks(range(len(run.compared)), [run.method_title(method) for method in run.compared])
@@ -337,14 +368,15 @@ FIGURES = {"fig5": figure5, "fig6": figure6, "fig7": figure7, "methods": methods
 
 
 def drawn_in(figure):
-    """Every bar as it was drawn (left edge, width, height), and the points of each molecule."""
+    """Every bar as it was drawn (left edge, width, height), the points of each molecule, and what is written among them."""
     panels = []
     for axes in figure.axes:
         spec = axes.get_subplotspec()
         patches = [patch for container in axes.containers for patch in container.patches]
         bars = [[float(patch.get_x()), float(patch.get_width()), float(patch.get_height())] for patch in patches]
         points = {line.get_gid(): [[float(x), float(y)] for x, y in zip(*line.get_data())] for line in axes.lines}
-        panels.append({"row": spec.rowspan.start, "column": spec.colspan.start, "bars": bars, "points": points})
+        notes = [text.get_text() for text in axes.texts]
+        panels.append({"row": spec.rowspan.start, "column": spec.colspan.start, "bars": bars, "points": points, "notes": notes})
     return panels
 
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "experiments/level_set_run.h"
 #include "experiments/record_set.h"
 #include "experiments/tetgen_run.h"
 
@@ -16,11 +17,27 @@ using Number = std::optional<double>;
 
 constexpr double kPerCent = 100;
 
-/// Meshes to which the goals for 65 000 vertices apply: the experiments' monomer has 60 000 to 75 000.
-constexpr double kMostVerticesOfMonomer = 75'000;
+constexpr double kPerMillion = 1e6;
 
-/// Meshes to which the goal for a million vertices applies.
-constexpr double kMostVerticesOfMillion = 1'100'000;
+/// A goal that is for a number of vertices is judged on meshes of about as many.
+struct SizeBand {
+  double least, most;  ///< vertices of the mesh that the method was given
+  const char* text;
+
+  [[nodiscard]] bool has(const Json& record) const {
+    const Number vertices = number_at(&record, "/metrics/before/vertices");
+    return vertices && least <= *vertices && *vertices <= most;
+  }
+};
+
+/// The goals for 65 000 vertices: the experiments' monomer without its cavities has as many.
+constexpr SizeBand kMonomerBand{60'000, 75'000, "60 000 to 75 000 vertices"};
+
+/// The goal for a million vertices: a tenth less or more.
+constexpr SizeBand kMillionBand{900'000, 1'100'000, "0.9 to 1.1 million vertices"};
+
+/// Of the samples, those without a foot on the level set: they are left out of the mean, and a mean without more than these is none.
+constexpr double kMostUnresolvedShare = 0.001;
 
 enum class Side { at_least, at_most };
 
@@ -107,6 +124,10 @@ bool has_at_most(const Json& record, double vertices) {
   return number_at(&record, "/metrics/before/vertices").value_or(HUGE_VAL) <= vertices;
 }
 
+bool has_value(const Json& record, const std::string& pointer) {
+  return record.contains(Json::json_pointer(pointer));
+}
+
 std::vector<Measured> measured_shape() {
   return {
       {{"vertices_before", "Vertices before"}, at("/metrics/before/vertices"), 0, {}},
@@ -136,11 +157,37 @@ std::vector<Measured> measured_shape() {
   };
 }
 
+/// Of the meshes that are held against their level set at all.
 Measured level_set_ratio() {
   return {{"level_set_distance_ratio", "Distance to the level set (× before)"},
           ratio("/level_set_distance/after/mean", "/level_set_distance/before/mean"),
           3,
-          Goal{Side::at_most, 1.5, 1}};
+          Goal{Side::at_most, 1.5, 1},
+          {},
+          [](const Json& record) { return has_value(record, "/level_set_distance"); }};
+}
+
+/// "0.98 (12 samples without a foot)"
+Judged with_unresolved(Judged judged, const Json& record) {
+  const double unresolved = number_at(&record, "/level_set_distance/after/unresolved").value_or(0);
+  if (unresolved == 0) return judged;
+  judged.text += fmt::format(" ({:.0f} {} without a foot)", unresolved, unresolved == 1 ? "sample" : "samples");
+  if (unresolved <= kMostUnresolvedShare * static_cast<double>(kLevelSetSamples)) return judged;
+  judged.verdict = Verdict::missed;
+  judged.detail = fmt::format("more than {} % of the samples have no foot and are not in the mean", kPerCent * kMostUnresolvedShare);
+  return judged;
+}
+
+Quantity level_set_quantity() {
+  Quantity result = quantity(level_set_ratio());
+  result.judge = [judge = std::move(result.judge)](const Json& record) { return with_unresolved(judge(record), record); };
+  return result;
+}
+
+/// What TetGen stumbles over.
+std::vector<Measured> measured_readiness() {
+  return {{{"smallest_dihedral_deg", "Smallest angle between neighbours (°)"}, at("/tetgen_ready/smallest_dihedral_deg"), 2, {}},
+          {{"vertex_spacing_ppm", "Closest vertices (10⁻⁶ of the diagonal)"}, at("/tetgen_ready/vertex_spacing", kPerMillion), 2, {}}};
 }
 
 Measured deviation_in_angstroms() {
@@ -171,22 +218,42 @@ Quantity tetgen_quantity(const std::string& switches, double most_vertices) {
   return {{"tetgen_" + switches, "TetGen -" + switches}, "", judge};
 }
 
-/// Iterations beside those on the reference method's mesh, which must not be fewer.
+/// Of the reference method's solver; nothing where it did not converge, or was not run.
+Number reference_iterations(const Json& record) {
+  const bool has_converged = text_at(&record, "/reference/solvation/status") == "success";
+  return has_converged ? number_at(&record, "/reference/solvation/iterations") : Number();
+}
+
+/// Iterations beside those on the reference method's mesh, which must not be fewer; not judged where there are none.
 Judged judge_solvation(const Json& record) {
   const std::string status = text_at(&record, "/solvation/status").value_or("not computed");
   if (status == "not computed") return {};
-  const Number iterations = number_at(&record, "/solvation/iterations"), reference = number_at(&record, "/reference/solvation/iterations");
+  const Number iterations = number_at(&record, "/solvation/iterations"), reference = reference_iterations(record);
   const std::string beside = reference ? fmt::format(" ({:.0f})", *reference) : " (—)";
   if (status != "success" || !iterations) return {status + beside, Verdict::missed, text_at(&record, "/solvation/reason").value_or("")};
-  const bool is_more = reference && *iterations > *reference;
+  if (!reference) return {fmt::format("{:.0f}", *iterations) + beside, Verdict::not_judged, ""};
+  const bool is_more = *iterations > *reference;
   return {fmt::format("{:.0f}", *iterations) + beside, is_more ? Verdict::missed : Verdict::aim, is_more ? "more iterations" : ""};
 }
 
-/// `most_vertices`: of the meshes that must be as fast.
-Quantity seconds_quantity(Column head, const std::string& pointer, Goal goal, double most_vertices) {
-  Measured measured{std::move(head), at(pointer), 2, goal};
-  measured.is_judged = [most_vertices](const Json& record) { return has_at_most(record, most_vertices); };
-  return quantity(std::move(measured));
+/// Judged on the meshes of a size alone.
+Quantity seconds_quantity(Measured measured, const SizeBand& band) {
+  measured.is_judged = [band](const Json& record) { return band.has(record); };
+  Quantity result = quantity(std::move(measured));
+  result.applies_to = band.text;
+  result.goal += fmt::format(" ({})", band.text);
+  return result;
+}
+
+/// Ready meshes have no goal.
+std::vector<Quantity> seconds_quantities(StudiedMeshes meshes) {
+  Measured one{{"seconds_1_thread", "Seconds, one thread"}, at("/cpu_seconds/total"), 2, Goal{Side::at_most, 2, 0.6}};
+  Measured two{{"seconds_2_threads", "Seconds, two threads"}, at("/two_threads/seconds"), 2, Goal{Side::at_most, 30, 8}};
+  if (meshes == StudiedMeshes::molecules)
+    return {seconds_quantity(std::move(one), kMonomerBand), seconds_quantity(std::move(two), kMillionBand)};
+  one.goal.reset();
+  two.goal.reset();
+  return {quantity(std::move(one)), quantity(std::move(two))};
 }
 
 Judged judge_bytes(const Json& record) {
@@ -198,32 +265,38 @@ Judged judge_bytes(const Json& record) {
 }  // namespace
 
 std::vector<Quantity> shape_quantities(StudiedMeshes meshes) {
-  std::vector<Measured> measured = measured_shape();
-  if (meshes == StudiedMeshes::molecules) {
-    measured.push_back(level_set_ratio());
-    measured.push_back(deviation_in_angstroms());
-  } else {
-    for (Measured& m : measured)
-      if (m.head.id != "intersecting_pairs") m.goal.reset();
-    measured.push_back(deviation_of_diagonal());
-  }
+  const bool is_molecule = meshes == StudiedMeshes::molecules;
   std::vector<Quantity> quantities;
-  for (Measured& m : measured) quantities.push_back(quantity(std::move(m)));
+  for (Measured& m : measured_shape()) {
+    if (!is_molecule && m.head.id != "intersecting_pairs") m.goal.reset();
+    quantities.push_back(quantity(std::move(m)));
+  }
+  if (is_molecule) quantities.push_back(level_set_quantity());
+  quantities.push_back(quantity(is_molecule ? deviation_in_angstroms() : deviation_of_diagonal()));
   return quantities;
 }
 
 std::vector<Quantity> use_quantities(StudiedMeshes meshes) {
-  std::vector<Quantity> quantities = {tetgen_quantity("p", HUGE_VAL), tetgen_quantity("pY", HUGE_VAL),
-                                      tetgen_quantity(kQualitySwitches, kMostVerticesOfMonomer)};
+  std::vector<Quantity> quantities;
+  for (Measured& m : measured_readiness()) quantities.push_back(quantity(std::move(m)));
+  for (const char* switches : {"p", "pY"}) quantities.push_back(tetgen_quantity(switches, HUGE_VAL));
+  quantities.push_back(tetgen_quantity(kQualitySwitches, kMonomerBand.most));
   if (meshes == StudiedMeshes::molecules)
     quantities.push_back({{"solvation_iterations", "Solvation iterations (on SMOPT's mesh)"}, "", judge_solvation});
-  const bool is_judged = meshes == StudiedMeshes::molecules;
-  quantities.push_back(seconds_quantity({"seconds_1_thread", "Seconds, one thread"}, "/cpu_seconds/total", {Side::at_most, 2, 0.6},
-                                        is_judged ? kMostVerticesOfMonomer : 0));
-  quantities.push_back(seconds_quantity({"seconds_2_threads", "Seconds, two threads"}, "/two_threads/seconds", {Side::at_most, 30, 8},
-                                        is_judged ? kMostVerticesOfMillion : 0));
+  for (Quantity& seconds : seconds_quantities(meshes)) quantities.push_back(std::move(seconds));
   quantities.push_back({{"same_bytes", "Bytes on two threads"}, "", judge_bytes});
+  quantities.push_back(quantity({{"peak_memory_mb", "Peak memory (MB)"}, at("/peak_memory_mb"), 0, {}}));
   return quantities;
+}
+
+std::vector<Quantity> unmeasured(std::span<const Quantity> quantities, std::span<const Json> records) {
+  std::vector<Quantity> result;
+  for (const Quantity& quantity : quantities) {
+    const bool is_measured = std::ranges::any_of(
+        records, [&](const Json& record) { return is_done(&record) && quantity.judge(record).verdict != Verdict::not_judged; });
+    if (!quantity.applies_to.empty() && !is_measured) result.push_back(quantity);
+  }
+  return result;
 }
 
 std::string marked(const Judged& judged) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ struct Judged {
 /// A column of the study's tables, and what stands in a record's row.
 struct Quantity {
   Column head;
-  std::string goal;                          ///< "≥ 15, aim ≥ 30"; empty where there is none, or it is no number
+  std::string goal;                          ///< "≥ 15, aim ≥ 30", with `applies_to`; empty where there is none, or it is no number
   std::function<Judged(const Json&)> judge;  ///< of a record that is done
+  std::string applies_to = {};               ///< "60 000 to 75 000 vertices"; empty: to a mesh of any size
 };
 
 /// Whose records are judged: a molecule's have a level set and a solvation energy, those of a ready mesh have none, and their shape is reported, not
@@ -38,8 +40,11 @@ enum class StudiedMeshes { molecules, ready };
 /// Vertices, pairs, angles, valence, what is kept of volume, area and level set.
 std::vector<Quantity> shape_quantities(StudiedMeshes meshes);
 
-/// What the mesh is good for and what it costs: TetGen, solvation, seconds.
+/// What the mesh is good for and what it costs: TetGen, solvation, seconds, memory.
 std::vector<Quantity> use_quantities(StudiedMeshes meshes);
+
+/// Those whose goal is for meshes of a certain size, of which none of the records is one that is done: nothing is known of the goal.
+std::vector<Quantity> unmeasured(std::span<const Quantity> quantities, std::span<const Json> records);
 
 /// "**12.3 ✗**" where the must is missed, "31.2 ✓" where the aim is reached, "20.0" between.
 std::string marked(const Judged& judged);

@@ -23,6 +23,7 @@ struct Arguments {
   std::vector<std::string> molecules;
   std::vector<std::string> compared = {"fas2", "ache-monomer"};
   std::filesystem::path data, output;
+  bool with_million = true;
   RemeshStudyOptions study;
 };
 
@@ -74,6 +75,7 @@ std::string command_of(const Arguments& arguments) {
   if (!arguments.study.archive.empty()) command += fmt::format(" --demo {}", arguments.study.archive.string());
   if (arguments.study.method != defaults.study.method) command += fmt::format(" --method {}", arguments.study.method);
   if (!arguments.study.with_solvation) command += " --no-solvation";
+  if (!arguments.with_million) command += " --no-million";
   return command;
 }
 
@@ -100,6 +102,7 @@ std::string draw_figure(const RemeshStudy& study, const std::filesystem::path& f
 void run(Arguments& arguments) {
   arguments.study.datasets = chosen_datasets(arguments);
   arguments.study.compared = chosen_compared(arguments);
+  if (!arguments.with_million) arguments.study.copied_vertices = 0;
   const Stopwatch watch;
   const RemeshStudyLog tell = [&](const std::string& what) { fmt::print(stderr, "[{:5.0f} s] {}\n", watch.elapsed().wall, what); };
   RemeshStudy study = run_remesh_study(arguments.study, baselines::all_methods(), tell);
@@ -122,6 +125,7 @@ int main_of(int argc, char** argv) {
                  "an archive of ready meshes (.tar.gz), of which the clean, smooth, closed ones are taken");
   app.add_option("--method", arguments.study.method, "the method that is studied")->capture_default_str();
   app.add_flag("!--no-solvation", arguments.study.with_solvation, "leave the solvation solver out");
+  app.add_flag("!--no-million", arguments.with_million, "leave out the copies of the AChE monomer with a million vertices");
   app.add_option("-o,--output", arguments.output, "the folder to write into (default: the page to standard output)");
   return run_study_program(app, argc, argv, [&] { run(arguments); });
 }

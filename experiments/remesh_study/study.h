@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -11,6 +12,9 @@
 
 namespace smopt::experiments {
 
+/// The dataset of which copies are made.
+inline constexpr const char* kCopied = "ache-monomer";
+
 /// What the study runs.
 struct RemeshStudyOptions {
   std::string method = "smopt2";      ///< the case that is studied
@@ -20,6 +24,9 @@ struct RemeshStudyOptions {
   std::filesystem::path meshes;       ///< a folder of ready meshes, all taken; empty: none
   std::filesystem::path archive;      ///< an archive of ready meshes, chosen by MeshChoiceRule; empty: none
   bool with_solvation = true;         ///< minutes for the larger molecules
+  /// Vertices of the copies of `kCopied` that are studied, too, where it is among the datasets: the size that the goal for two threads is for.
+  /// 0: none.
+  std::size_t copied_vertices = 1'000'000;
 };
 
 /// Told what comes next, a line each time.

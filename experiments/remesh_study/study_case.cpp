@@ -9,7 +9,9 @@
 #include "experiments/record_set.h"
 #include "experiments/remesh_study/worst_places.h"
 #include "experiments/tetgen_run.h"
+#include "metrics/dihedral.h"
 #include "metrics/distance.h"
+#include "metrics/vertex_spacing.h"
 #include "smopt/error.h"
 #include "smopt/improve/prepare.h"
 #include "smopt/io/off.h"
@@ -54,9 +56,20 @@ Json distance_to_input(const TriangleMesh& mesh, const TriangleMesh& input) {
           {"diagonal", diagonal_of(input)}};
 }
 
-void add_geometry(Json& record, const StudyMesh& study, const TriangleMesh& mesh) {
-  record["distance_to_input"] = distance_to_input(mesh, study.input.mesh);
+Json json_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json tetgen_ready(const TriangleMesh& mesh) {
+  return {{"smallest_dihedral_deg", json_of(metrics::smallest_dihedral_deg(mesh))},
+          {"vertex_spacing", json_of(metrics::smallest_vertex_spacing(mesh))}};
+}
+
+void add_geometry(Json& record, const StudyMesh& study, const TriangleMesh& mesh, const StudyPlan& plan) {
   record["worst"] = to_json(find_worst_places(mesh));
+  record["tetgen_ready"] = tetgen_ready(mesh);
+  if (!plan.with_distances) return;
+  record["distance_to_input"] = distance_to_input(mesh, study.input.mesh);
   if (study.level_set)
     record["level_set_distance"] = {{"before", to_json(study.input_distance)}, {"after", to_json(study.level_set->distance(mesh))}};
 }
@@ -75,7 +88,7 @@ SolvationPlan solvation_plan_of(const StudyMesh& study, const TriangleMesh& mesh
 }
 
 void add_uses(Json& record, const StudyMesh& study, const TriangleMesh& mesh, const StudyPlan& plan) {
-  record["tetgen"] = tetgen_of(mesh, trials_of(plan), {});
+  if (plan.with_tetrahedra) record["tetgen"] = tetgen_of(mesh, trials_of(plan), {});
   record["solvation"] = solvation_of(mesh, study.molecule.value_or(Molecule()), solvation_plan_of(study, mesh, plan), {});
 }
 
@@ -96,7 +109,7 @@ void add_two_threads(Json& record, const StudyMesh& study, const Method& method,
 void record_input(Json& record, const StudyMesh& study, const StudyPlan& plan) {
   record["metrics"] = {{"before", study.input.metrics}, {"after", study.input.metrics}};
   record["output"] = {{"vertices", study.input.mesh.vertex_count()}, {"sha256", study.input.sha256}};
-  add_geometry(record, study, study.input.mesh);
+  add_geometry(record, study, study.input.mesh, plan);
   add_uses(record, study, study.input.mesh, plan);
 }
 
@@ -105,7 +118,7 @@ void record_method(Json& record, const StudyMesh& study, const MethodCase& metho
   const Method& method = find_method(registry, method_case.method);
   const OptionValues options = options_of(method_case, method, plan);
   const TriangleMesh mesh = run_method_case(record, method, options, study.initial, study.input, 1, {});
-  add_geometry(record, study, mesh);
+  add_geometry(record, study, mesh, plan);
   add_uses(record, study, mesh, plan);
   if (plan.with_two_threads) add_two_threads(record, study, method, options);
 }

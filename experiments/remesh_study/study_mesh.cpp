@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/surface_stage.h"
 #include "smopt/error.h"
+#include "smopt/improve/prepare.h"
 
 namespace smopt::experiments {
 namespace {
@@ -27,6 +30,33 @@ Dataset dataset_of(const std::string& name, const fs::path& file) {
   return dataset;
 }
 
+/// From one copy to the next, times the molecule's extent.
+constexpr double kCopyDistance = 1.2;
+
+/// The smallest cube of places that so many copies fit into.
+int side_of_lattice(int copies) {
+  int side = 1;
+  while (side * side * side < copies) ++side;
+  return side;
+}
+
+void append(TriangleMesh& all, const TriangleMesh& mesh, const Vec3& offset) {
+  const auto first = static_cast<VertexId>(all.vertex_count());
+  for (const Vec3& p : mesh.points) all.points.push_back(p + offset);
+  for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({a + first, b + first, c + first});
+}
+
+/// On a cubic lattice, filled row by row.
+TriangleMesh copies_of(const TriangleMesh& mesh, int copies) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.points) box.extend(p);
+  const Vec3 distance = kCopyDistance * box.sizes();
+  const int side = side_of_lattice(copies);
+  TriangleMesh all;
+  for (int i = 0; i < copies; ++i) append(all, mesh, distance.cwiseProduct(Vec3(i % side, i / side % side, i / (side * side))));
+  return all;
+}
+
 }  // namespace
 
 StudyMesh study_mesh_of(const Dataset& dataset) {
@@ -46,6 +76,21 @@ StudyMesh study_mesh_of(const std::string& name, const fs::path& file, TriangleM
   result.dataset = dataset_of(name, file);
   result.input = prepare_input(mesh);
   result.initial = std::move(mesh);
+  return result;
+}
+
+StudyMesh study_copies_of(const Dataset& dataset, std::size_t vertices) {
+  const TriangleMesh one = generate_surface(dataset, 1, {}).mesh;
+  TriangleMesh prepared = one;
+  prepare(prepared, CavityPolicy::delete_cavities);
+  const double ratio = static_cast<double>(vertices) / static_cast<double>(prepared.vertex_count());
+  const int copies = std::max(1, static_cast<int>(std::lround(ratio)));
+  StudyMesh result;
+  result.dataset = dataset;
+  result.dataset.name += "-copies";
+  result.dataset.title = fmt::format("{} × {}", copies, dataset.title);
+  result.initial = copies_of(one, copies);
+  result.input = prepare_input(result.initial);
   return result;
 }
 

@@ -29,6 +29,10 @@ StudyMesh study_mesh_of(const Dataset& dataset);
 /// A mesh that is there. \throws InvalidMesh where it is not a closed manifold.
 StudyMesh study_mesh_of(const std::string& name, const std::filesystem::path& file, TriangleMesh mesh);
 
+/// The molecule's surface so many times that the copies have about as many vertices without their cavities, side by side, further apart than it
+/// is long. It stands for no molecule. \throws InvalidInput
+StudyMesh study_copies_of(const Dataset& dataset, std::size_t vertices);
+
 /// A dataset for each molecule file (.pqr, .pqr.gz) in a folder, by name, meshed as the experiments' own molecules are. \throws InvalidInput
 /// where there is no such folder.
 std::vector<Dataset> datasets_in(const std::filesystem::path& folder);

@@ -24,18 +24,25 @@ Seconds are those of the whole method and of what prepares the mesh, without rea
 clock's.
 
 A goal is in the column's head. **Bold with ✗**: the must is missed, and the list below says where and, as far as it is known, why. ✓: the
-aim is reached. Neither: the must is met. Seconds on one thread and TetGen `-pq1.4` are musts up to 75 000 vertices, seconds on two threads up to
-1.1 million. *Solvation iterations*: in brackets those on the mesh of `smopt`, which must not be fewer; up to 70 000 vertices.
+aim is reached. Neither: the must is met, or there is none. Seconds are judged on meshes of the size that the goal is for, TetGen `-pq1.4` up to
+75 000 vertices. *Without a foot*: samples of which no way along the gradient leads to the level set; they are not in the mean, and more than 0.1 %
+of them are a miss. *Angle between neighbours*: of two triangles at their common edge, 0° folded, 180° flat; it and the *closest vertices* tell how
+near a surface comes to what TetGen refuses. *Solvation iterations*: in brackets those on the mesh of `smopt`, which must not be fewer (without
+them the number is not judged); up to 70 000 vertices. Memory: the largest that the whole process had while the method ran.
 )";
 
 constexpr const char* kReadyText = R"(
 ## Ready meshes
 
-Their shape is reported, not judged; pairs and TetGen are musts. From the archive of Debian's libcgal-demo (`data.tar.gz`) are taken the meshes that
+Their shape is reported, not judged; pairs and TetGen are musts.)";
+
+constexpr const char* kArchiveText = R"( From the archive `{}` are taken the meshes that
 are clean (closed, manifold, oriented, every triangle with an area, no two vertices at one place, no intersecting pair), have at least 2000
 vertices, and are smooth: at most 1 % of the edges turn by more than 60° from one triangle to the next. That leaves out machine parts with sharp
-edges, and models of so few triangles that their limbs are prisms.
-)";
+edges, and models of so few triangles that their limbs are prisms.)";
+
+constexpr const char* kFolderText = R"( From the folder `{}` every OFF file
+that can be read is taken as it is, without a choice.)";
 
 constexpr const char* kComparedText = R"(
 ## Beside the other methods
@@ -123,6 +130,14 @@ std::string notes_of(const Json& record) {
   return text;
 }
 
+/// The goals that none of the meshes has the size for.
+std::string unmeasured_text(const std::vector<Json>& records, const std::vector<Quantity>& quantities) {
+  std::string text;
+  for (const Quantity& quantity : unmeasured(quantities, records))
+    text += fmt::format("- {}: {}: **not measured**\n", quantity.head.title, quantity.goal);
+  return text.empty() ? "" : "\nGoals for which no mesh of their size has a result:\n\n" + text;
+}
+
 std::string misses_text(const std::vector<Json>& records, const std::vector<Quantity>& quantities) {
   std::string text;
   for (const Json& record : records) {
@@ -141,7 +156,7 @@ std::string goals_section(const std::vector<Json>& records, StudiedMeshes meshes
   std::string text = "\n" + to_markdown(goals_table(records, "The surface", shape)) + "\n" +
                      to_markdown(goals_table(records, "What it is good for, and what it costs", use));
   shape.insert(shape.end(), use.begin(), use.end());
-  return text + misses_text(records, shape);
+  return text + misses_text(records, shape) + unmeasured_text(records, shape);
 }
 
 /// The ready meshes that were left, by reason.
@@ -155,9 +170,17 @@ std::string left_text(const std::vector<MeshCandidate>& candidates) {
   return text.empty() ? "" : "\n<details><summary>Meshes that were left</summary>\n\n" + text + "\n</details>\n";
 }
 
+/// Where the ready meshes are from and which of them were taken.
+std::string sources_text(const RemeshStudy& study) {
+  std::string text;
+  if (!study.archive.empty()) text += fmt::format(kArchiveText, study.archive);
+  if (!study.folder.empty()) text += fmt::format(kFolderText, study.folder);
+  return text + "\n";
+}
+
 std::string ready_section(const RemeshStudy& study) {
   if (study.ready.empty() && study.candidates.empty()) return "";
-  return kReadyText + goals_section(study.ready, StudiedMeshes::ready) + left_text(study.candidates);
+  return kReadyText + sources_text(study) + goals_section(study.ready, StudiedMeshes::ready) + left_text(study.candidates);
 }
 
 RecordSet record_set_of(const std::vector<Json>& list) {

@@ -13,6 +13,8 @@ struct RemeshStudy {
   std::vector<Json> molecules;            ///< the studied method's, one a molecule
   std::vector<Json> ready;                ///< the studied method's, one a ready mesh
   std::vector<MeshCandidate> candidates;  ///< the ready meshes that were looked at, taken or left
+  std::string archive;                    ///< of which ready meshes were chosen; empty: of none
+  std::string folder;                     ///< of which all were taken; empty: of none
   std::vector<Json> compared;             ///< every method's on some molecules
   std::vector<Json> ablations;            ///< the studied method's on the same molecules, whole and with a part left out
   std::string figure;                     ///< the file of the figure of all methods, relative to the page; empty: none was drawn

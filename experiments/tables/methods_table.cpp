@@ -1,7 +1,11 @@
 #include "experiments/tables/methods_table.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <functional>
 
+#include "experiments/level_set_run.h"
 #include "experiments/method_cases.h"
 #include "experiments/tables/molecule_table.h"
 #include "experiments/tetgen_run.h"
@@ -44,6 +48,11 @@ CaseColumn change_column(std::string id, std::string title, const std::string& q
 Cell level_set_ratio(const Json& record) {
   const auto before = number_at(&record, "/level_set_distance/before/mean"), after = number_at(&record, "/level_set_distance/after/mean");
   return before && after && *before > 0 ? Cell(Decimal{*after / *before, 2}) : Cell();
+}
+
+/// Those of a case's samples that are not in its mean distance to the level set.
+double unresolved_samples(const Json& record) {
+  return number_at(&record, "/level_set_distance/after/unresolved").value_or(0);
 }
 
 /// Of all that is the method's own: without the validity and the cavities, which come before any. Nothing for the mesh as generated.
@@ -90,6 +99,17 @@ std::vector<CaseColumn> case_columns() {
   };
 }
 
+/// "AChE monomer, plain Laplacian: 12", for each case that is done and has samples without a foot.
+std::vector<std::string> unresolved_cases(const RecordSet& records) {
+  std::vector<std::string> cases;
+  for (const MoleculeRow& row : molecule_rows(records))
+    for (const std::string& method : records.methods())
+      if (const Json* const record = row.record(method); is_done(record) && unresolved_samples(*record) > 0)
+        cases.push_back(
+            fmt::format("{}, {}: {:.0f}", row.title, text_at(record, "/method_title").value_or(method), unresolved_samples(*record)));
+  return cases;
+}
+
 }  // namespace
 
 Table methods_table(const RecordSet& records) {
@@ -113,6 +133,9 @@ Table methods_table(const RecordSet& records) {
       "predicates. CPU seconds are the method's own on one thread, without validity and cavities, which come before any. "
       "\"—\" "
       "where there is no such number (coordinates that are not finite, a case that failed).");
+  if (const std::vector<std::string> cases = unresolved_cases(records); !cases.empty())
+    table.notes.push_back(fmt::format("Samples without a foot on the level set, of {}, which are left out of the mean: {}.",
+                                      kLevelSetSamples, fmt::join(cases, "; ")));
   return table;
 }
 

@@ -120,6 +120,15 @@ TEST(Tables, TheTableOfMethodsShowsWhatASimulationAsksFor) {
     EXPECT_EQ(cell_of_method(table, "plain Laplacian", column), kDash) << column;
 }
 
+TEST(Tables, TheTableOfMethodsSaysWhichMeanDistancesLeaveSamplesOut) {
+  std::vector<Json> list = three_methods(ache_monomer());
+  const std::size_t notes = methods_table(records_of(list)).notes.size();
+  list[1]["level_set_distance"] = {{"before", {{"mean", 0.02}}}, {"after", {{"mean", 0.05}, {"unresolved", 12}}}};
+  const Table table = methods_table(records_of(list));
+  ASSERT_EQ(table.notes.size(), notes + 1);
+  EXPECT_THAT(table.notes.back(), ::testing::AllOf(HasSubstr("AChE monomer, SMOPT: 12"), HasSubstr("of 200000")));
+}
+
 TEST(Tables, EveryRowIsAsLongAsTheHead) {
   const RecordSet records = records_of(three_methods(ache_monomer()));
   for (const Table& table : {table1(records), table2(records), table3(records), methods_table(records)})
