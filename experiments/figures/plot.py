@@ -284,14 +284,24 @@ def why_no_value(record, value_of, scale):
     return f"{unresolved:g} without a foot" if unresolved else ""
 
 
+def place_of_note(axes, value):
+    """Beside the point, on the side where there is more room; at the row's right end where there is no point. As (x, offset, alignment)."""
+    if value is None:
+        return 1, -2, "right"
+    x, _ = axes.transAxes.inverted().transform(axes.transData.transform((value, 0)))
+    return (x, 5, "left") if x < 0.5 else (x, -5, "right")
+
+
 def tell_unshown(axes, run, value_of, scale):
-    """At the right end of the molecule's line in the method's row, in the molecule's colour."""
+    """In the molecule's line of the method's row, and in its colour."""
     for index, molecule in enumerate(run.molecules):
         for row, method in enumerate(run.compared):
-            note = why_no_value(run.record(molecule, method), value_of, scale)
+            record = run.record(molecule, method)
+            note = why_no_value(record, value_of, scale)
             if note:
-                axes.annotate(note, (1, row + offset_of(index, len(run.molecules))), xycoords=("axes fraction", "data"), xytext=(-2, 0),
-                              textcoords="offset points", ha="right", va="center", fontsize=NOTE_POINTS, style="italic",
+                x, offset, alignment = place_of_note(axes, shown_value(record, value_of, scale))
+                axes.annotate(note, (x, row + offset_of(index, len(run.molecules))), xycoords=("axes fraction", "data"), xytext=(offset, 0),
+                              textcoords="offset points", ha=alignment, va="center", fontsize=NOTE_POINTS, style="italic",
                               color=MOLECULE_COLOURS[index % len(MOLECULE_COLOURS)])
 
 
