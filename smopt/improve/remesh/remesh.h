@@ -68,11 +68,11 @@ struct RemeshReport {
 /// Makes all of a surface mesh fit for simulation: regular triangles of the wanted size everywhere, the enclosed volume kept.
 ///
 /// Rounds of four operations in the order of Botsch and Kobbelt (A remeshing approach to multiresolution modeling, 2004): long edges are split,
-/// short ones collapsed, edges flipped where valences or angles gain, vertices relaxed towards the centroid of their star; then repairs: around
-/// what misses a goal, worst first in each block of space, the operation that gains most (after Hu et al., Error-bounded and feature preserving surface remeshing with
-/// minimal angle improvement, 2017). Every operation is allowed by an exact test against the whole surface of all that it sweeps over: no pair of
-/// triangles intersects afterwards that did not before, and the topology is unchanged. Vertices move within the plane across their star's area
-/// vector, and give back along it what volume the other operations took.
+/// short ones collapsed, edges flipped where valences or angles gain, vertices relaxed towards the centroid of their star. Then repairs: around
+/// what misses a goal, worst first in each block of space, the operation that gains most (after Hu et al., Error-bounded and feature preserving
+/// surface remeshing with minimal angle improvement, 2017). Every operation is allowed by an exact test against the whole surface of all that it
+/// sweeps over: no pair of triangles intersects afterwards that did not before, and the topology is unchanged. Vertices move within the plane
+/// across their star's area vector, and give back along it what volume the other operations took.
 /// \param mesh  positions in Å, changed in place, connectivity too, and numbered anew along a curve through space; closed, manifold and oriented.
 /// \throws InvalidOption; InvalidMesh when the mesh is no closed, oriented manifold; Cancelled.
 /// Cost: some 15 microseconds a vertex on one thread; the same bytes for any number of threads.
