@@ -56,9 +56,10 @@ TEST(Usage, MethodsListsEveryMethodWithItsDefaults) {
   const ProgramResult r = run_smopt({"methods", "--json"});
   ASSERT_EQ(r.exit_code, 0) << r.err;
   const auto methods = nlohmann::json::parse(r.out);
-  ASSERT_GE(methods.size(), 2U);
+  ASSERT_GE(methods.size(), 3U);
   EXPECT_EQ(methods[0]["name"], "smopt");
-  EXPECT_EQ(methods[1]["name"], "laplacian");
+  EXPECT_EQ(methods[1]["name"], "smopt2");
+  EXPECT_EQ(methods[2]["name"], "laplacian");
   const std::string table = run_smopt({"methods"}).out;
   for (const auto& method : methods) {
     EXPECT_THAT(table, HasSubstr(method["name"].get<std::string>()));
