@@ -21,14 +21,11 @@ constexpr double kValenceWorth = 0.02;
 
 bool propose(RemeshState& state, VertexId a, std::size_t slot, Patch& patch) {
   const EditableSurface& surface = state.surface;
-  const std::span<const VertexId> ring = surface.rings().vertices(a);
-  const std::span<const FaceId> faces = surface.rings().faces(a);
-  const std::size_t n = ring.size(), before = slot > 0 ? slot - 1 : n - 1;
-  const VertexId b = ring[slot], c = ring[slot + 1 < n ? slot + 1 : 0], d = ring[before];
-  if (n <= 3 || surface.valence(b) <= 3 || surface.are_neighbours(c, d)) return false;
+  const auto [b, c, d, left_face, right_face] = surface.edge_at(a, slot);
+  if (surface.valence(a) <= 3 || surface.valence(b) <= 3 || surface.are_neighbours(c, d)) return false;
   patch.clear();
   patch.boundary.assign({c, a, d, b});
-  patch.old_faces.assign({faces[slot], faces[before]});
+  patch.old_faces.assign({left_face, right_face});
   patch.new_triangles.assign({Triangle{c, a, d}, Triangle{d, b, c}});
   patch.new_faces = patch.old_faces;
   patch.swept.push_back({{c, a, d}, b});
@@ -49,10 +46,8 @@ int valence_gain(const RemeshState& state, const Patch& patch) {
 }
 
 bool may_be_wanted(const RemeshState& state, VertexId a, std::size_t slot) {
-  const std::span<const VertexId> ring = state.surface.rings().vertices(a);
-  const std::size_t n = ring.size();
-  if (ring[slot] < a) return false;
-  return valence_gain(state, a, ring[slot], ring[slot + 1 < n ? slot + 1 : 0], ring[slot > 0 ? slot - 1 : n - 1]) >= -kTolerableExcess;
+  const EditableSurface::Edge edge = state.surface.edge_at(a, slot);
+  return a < edge.to && valence_gain(state, a, edge.to, edge.left, edge.right) >= -kTolerableExcess;
 }
 
 double gain_for_density(const RemeshState& state, const Patch& patch) {

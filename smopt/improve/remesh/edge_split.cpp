@@ -17,19 +17,17 @@ constexpr double kSmallestRepair = 0.05, kCost = 0.04, kLastResort = 1e-3;
 
 bool propose(RemeshState& state, VertexId a, std::size_t slot, Patch& patch) {
   EditableSurface& surface = state.surface;
-  const std::span<const VertexId> ring = surface.rings().vertices(a);
-  const std::span<const FaceId> faces = surface.rings().faces(a);
-  const std::size_t n = ring.size(), before = slot > 0 ? slot - 1 : n - 1;
-  const VertexId b = ring[slot], c = ring[slot + 1 < n ? slot + 1 : 0], d = ring[before], m = state.spare.vertex(a);
+  const auto [b, c, d, left_face, right_face] = surface.edge_at(a, slot);
+  const VertexId m = state.spare.vertex(a);
   const auto [spare0, spare1] = state.spare.faces(a);
   if (surface.is_in_use(m)) return false;  // one split a visit
   surface.place(m, 0.5 * (surface.point(a) + surface.point(b)));
   state.sizes[m] = 0.5 * (state.sizes[a] + state.sizes[b]);
   patch.clear();
   patch.boundary.assign({c, a, d, b});
-  patch.old_faces.assign({faces[slot], faces[before]});
+  patch.old_faces.assign({left_face, right_face});
   patch.new_triangles.assign({Triangle{m, c, a}, Triangle{m, a, d}, Triangle{m, d, b}, Triangle{m, b, c}});
-  patch.new_faces.assign({faces[slot], faces[before], spare0, spare1});
+  patch.new_faces.assign({left_face, right_face, spare0, spare1});
   patch.swept.assign({{{a, b, c}, m}, {{a, d, b}, m}});
   patch.walls.push_back({a, b, m});
   patch.added = m;

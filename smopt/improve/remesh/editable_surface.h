@@ -36,6 +36,18 @@ class EditableSurface {
   /// Place of w in the ring of v. \pre they are neighbours.
   [[nodiscard]] std::size_t slot_of(VertexId v, VertexId w) const;
   [[nodiscard]] bool are_neighbours(VertexId v, VertexId w) const;
+  /// The edge from a vertex to its ring vertex `to`, with its triangles: the left one leads on to the vertex `left`, the right one comes
+  /// from `right`.
+  struct Edge {
+    VertexId to, left, right;
+    FaceId left_face, right_face;
+  };
+  [[nodiscard]] Edge edge_at(VertexId v, std::size_t slot) const {
+    const std::span<const VertexId> ring = rings_.vertices(v);
+    const std::span<const FaceId> faces = rings_.faces(v);
+    const std::size_t next = slot + 1 < ring.size() ? slot + 1 : 0, previous = slot > 0 ? slot - 1 : ring.size() - 1;
+    return {ring[slot], ring[next], ring[previous], faces[slot], faces[previous]};
+  }
   [[nodiscard]] TriangleMesh compacted() const;
 
   /// Takes numbers for this many new vertices and twice as many triangles. Not while others are at work.

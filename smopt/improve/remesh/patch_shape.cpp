@@ -22,9 +22,7 @@ Vec3 normal_of(const EditableSurface& surface, const Triangle& t) {
 
 /// The triangle on the right of the edge from a to b.
 const Triangle& right_of(const EditableSurface& surface, VertexId a, VertexId b) {
-  const std::span<const FaceId> faces = surface.rings().faces(a);
-  const std::size_t slot = surface.slot_of(a, b);
-  return surface.mesh().triangles[faces[slot > 0 ? slot - 1 : faces.size() - 1]];
+  return surface.mesh().triangles[surface.edge_at(a, surface.slot_of(a, b)).right_face];
 }
 
 /// The smallest cosine between neighbouring normals, among some triangles that make up a disc, and across its boundary.
@@ -81,10 +79,6 @@ PatchShape triangle_shape(const RemeshState& state, const Patch& patch) {
   for (const FaceId f : patch.old_faces) shape.before = std::min(shape.before, state.quality_of(state.surface.mesh().triangles[f]));
   for (const Triangle& t : patch.new_triangles) shape.after = std::min(shape.after, state.quality_of(t));
   return shape;
-}
-
-PatchShape bend_shape(const RemeshState& state, const Patch& patch) {
-  return {state.quality.of_bend(cosine_before(state.surface, patch)), state.quality.of_bend(cosine_after(state.surface, patch))};
 }
 
 bool keeps_bends(const RemeshState& state, const Patch& patch) {

@@ -18,9 +18,6 @@ struct PatchShape {
 /// Of its triangles. Cost: O(size of the patch).
 PatchShape triangle_shape(const RemeshState& state, const Patch& patch);
 
-/// Of its edges, those of the boundary included: how sharply the surface bends there.
-PatchShape bend_shape(const RemeshState& state, const Patch& patch);
-
 /// Whether the surface bends nowhere in the new patch by more than 60°, or by no more than in the old one.
 bool keeps_bends(const RemeshState& state, const Patch& patch);
 
