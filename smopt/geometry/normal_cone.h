@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -44,6 +45,12 @@ inline constexpr float kConeRounding = 1e-5F;
 inline Eigen::Vector3f reliable_direction(const Vec3& doubled_area, double longest2) {
   const double norm = doubled_area.norm();
   return norm > kDirectionMarginRel * longest2 ? Eigen::Vector3f((doubled_area / norm).cast<float>()) : Eigen::Vector3f(0, 0, 0);
+}
+
+/// The same for a triangle by its corners.
+inline Eigen::Vector3f reliable_direction(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 p = b - a, q = c - a;
+  return reliable_direction(p.cross(q), std::max({p.squaredNorm(), q.squaredNorm(), (q - p).squaredNorm()}));
 }
 
 /// Widens the bound to hold for a triangle's normal too (as `reliable_direction` gives it).

@@ -1,7 +1,5 @@
 #include "smopt/improve/guarded_surface.h"
 
-#include <algorithm>
-
 #include "smopt/parallel.h"
 
 namespace smopt {
@@ -15,8 +13,7 @@ Directions normal_directions(const TriangleMesh& mesh) {
   for_ranges_in_parallel(directions.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const Triangle& t = mesh.triangles[f];
-      const Vec3 p = mesh.points[t[1]] - mesh.points[t[0]], q = mesh.points[t[2]] - mesh.points[t[0]];
-      directions[f] = reliable_direction(p.cross(q), std::max({p.squaredNorm(), q.squaredNorm(), (q - p).squaredNorm()}));
+      directions[f] = reliable_direction(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     }
   });
   return directions;

@@ -184,10 +184,8 @@ void EditableSurface::refresh_cone(VertexId v) {
   ring.clear();
   directions.clear();
   for (const VertexId w : rings_.vertices(v)) ring.push_back(mesh_.points[w]);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec3 p = ring[i] - mesh_.points[v], q = ring[i + 1 < ring.size() ? i + 1 : 0] - mesh_.points[v];
-    directions.push_back(reliable_direction(p.cross(q), std::max({p.squaredNorm(), q.squaredNorm(), (q - p).squaredNorm()})));
-  }
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    directions.push_back(reliable_direction(mesh_.points[v], ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]));
   guarded_.cones[v] = find_resting_cone(mesh_.points[v], ring, directions);
 }
 

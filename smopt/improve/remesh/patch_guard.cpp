@@ -4,7 +4,6 @@
 
 #include "smopt/geometry/predicates.h"
 #include "smopt/geometry/triangle_intersection.h"
-#include "smopt/geometry/triangle_shape.h"
 
 namespace smopt {
 namespace {
@@ -14,11 +13,6 @@ constexpr float kOutlineReach = 4;
 
 bool is_one_of(const std::vector<FaceId>& faces, FaceId f) {
   return std::ranges::find(faces, f) != faces.end();
-}
-
-Eigen::Vector3f direction_of(const TrianglePoints& p) {
-  const double longest2 = std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
-  return reliable_direction(doubled_area_vector(p[0], p[1], p[2]), longest2);
 }
 
 }  // namespace
@@ -60,8 +54,11 @@ bool PatchGuard::is_ok(const Patch& patch) {
 /// Along the mean of all normals, old and new.
 bool PatchGuard::find_axis(const Patch& patch) {
   directions_.clear();
-  for (const FaceId f : patch.old_faces) directions_.push_back(direction_of(points_of(surface_.mesh().triangles[f])));
-  for (const Triangle& t : patch.new_triangles) directions_.push_back(direction_of(points_of(t)));
+  const auto add = [&](const Triangle& t) {
+    directions_.push_back(reliable_direction(surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])));
+  };
+  for (const FaceId f : patch.old_faces) add(surface_.mesh().triangles[f]);
+  for (const Triangle& t : patch.new_triangles) add(t);
   axis_.setZero();
   for (const Eigen::Vector3f& d : directions_) axis_ += d;
   axis_.normalize();
