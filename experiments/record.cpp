@@ -35,10 +35,6 @@ Json medians(const Json& repeats, const char* key) {
 
 }  // namespace
 
-std::filesystem::path record_path(const std::filesystem::path& directory, std::string_view molecule, std::string_view method) {
-  return directory / "records" / molecule / (std::string(method) + ".json");
-}
-
 std::string method_title(std::string_view method) {
   return find_method_case(method).title;
 }

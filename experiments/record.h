@@ -17,9 +17,6 @@ using Json = nlohmann::ordered_json;
 /// Goes up when a key of the records changes its meaning.
 inline constexpr int kRecordSchema = 1;
 
-/// Where the record of a case is: `directory`/records/<molecule>/<method>.json.
-std::filesystem::path record_path(const std::filesystem::path& directory, std::string_view molecule, std::string_view method);
-
 /// How tables and figures call a case: "SMOPT" for `smopt`.
 std::string method_title(std::string_view method);
 

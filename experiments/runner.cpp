@@ -10,6 +10,7 @@
 #include "experiments/level_set_run.h"
 #include "experiments/record.h"
 #include "experiments/record_set.h"
+#include "experiments/run_layout.h"
 #include "smopt/error.h"
 #include "smopt/io/file.h"
 #include "smopt/io/mesh_io.h"

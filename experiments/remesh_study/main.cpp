@@ -12,6 +12,7 @@
 #include "experiments/record_set.h"
 #include "experiments/remesh_study/study.h"
 #include "experiments/remesh_study/study_mesh.h"
+#include "experiments/run_layout.h"
 #include "experiments/study_program.h"
 #include "smopt/io/scratch_folder.h"
 #include "smopt/timing.h"

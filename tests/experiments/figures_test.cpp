@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "experiments/embedded.h"
+#include "experiments/run_layout.h"
 #include "smopt/error.h"
 #include "smopt/io/child_process.h"
 #include "tests/experiments/made_records.h"

@@ -1,4 +1,5 @@
 #include "experiments/record_set.h"
+#include "experiments/run_layout.h"
 
 #include <gmock/gmock.h>
 

@@ -6,6 +6,7 @@
 #include "experiments/record.h"
 #include "experiments/record_set.h"
 #include "experiments/reproduce.h"
+#include "experiments/run_layout.h"
 #include "smopt/error.h"
 #include "smopt/io/sha256.h"
 #include "tests/experiments/made_records.h"
