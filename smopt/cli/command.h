@@ -40,5 +40,6 @@ void add_solvate(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
+void add_regress(CLI::App& app, Context& context);
 
 }  // namespace smopt::cli

@@ -40,6 +40,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_convert(app, context);
   add_reproduce(app, context);
   add_report(app, context);
+  add_regress(app, context);
 }
 
 /// Prints help or version where they were asked for, otherwise what is wrong with the command line; the exit code.
