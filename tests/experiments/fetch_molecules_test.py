@@ -6,6 +6,7 @@ pdb2pqr is played by a program of the test, so that its refusals can be had; the
 import functools
 import gzip
 import http.server
+import json
 import os
 import pathlib
 import shutil
@@ -111,9 +112,9 @@ class Case(unittest.TestCase):
     def put(self, name, text):
         (self.folder / "server" / name).write_bytes(gzip.compress(text.encode()))
 
-    def fetch(self, *arguments, **environment):
+    def fetch(self, *arguments, program=PROGRAM, **environment):
         environment = {"PATH": self.path, "SMOPT_PDB_URL": self.url, "no_proxy": "*", **environment}
-        command = [sys.executable, PROGRAM, *arguments, "-o", self.folder / "out"]
+        command = [sys.executable, program, *arguments, "-o", self.folder / "out"]
         return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120, check=False)
 
     def files(self):
@@ -188,6 +189,22 @@ class AnEntry(Case):
         first = (self.folder / "out" / "1abc.pqr.gz").read_bytes()
         self.fetch("1ABC")
         self.assertEqual((self.folder / "out" / "1abc.pqr.gz").read_bytes(), first)
+
+
+class ThePapersMolecules(Case):
+    def test_come_under_the_names_and_with_the_chains_and_operators_of_the_data_file(self):
+        program = self.folder / "bin" / "fetch_molecules"
+        shutil.copy(PROGRAM, program)
+        (program.parent / "datasets.json").write_text(json.dumps({"molecules": [
+            {"source": {"package": "apbs-data", "path": "/mache.pqr"}},
+            {"source": {"file": "turned.pqr.gz", "pdb": "1ABC", "chains": "B", "operators": ["2"]}},
+            {"source": {"file": "family.pqr.gz", "pdb": "2CIF", "chains": "A*"}}]}))
+        self.put("2CIF.cif.gz", CIF_ENTRY)
+        run = self.fetch("--paper", program=program)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(self.files(), ["family.pqr.gz", "turned.pqr.gz"])
+        self.assertEqual([atom[2:5] for atom in self.atoms("turned.pqr.gz")], [(9, 15, 3), (8, 15, 3), (7, 15, 3), (6, 15, 3)])
+        self.assertEqual([atom[2] for atom in self.atoms("family.pqr.gz")], [1.5, 2.5])
 
 
 class WhatPdb2pqrRefuses(Case):
