@@ -46,10 +46,18 @@ Standing standing_of_numbers(const Tolerance& tolerance, double reference, doubl
   return lost < -room ? Standing::better : Standing::within;
 }
 
+/// A word's place in the order, from 0; all that are not listed share the last.
+std::size_t rank_of(const Tolerance& tolerance, const std::string& word) {
+  return static_cast<std::size_t>(std::find(tolerance.best_first.begin(), tolerance.best_first.end(), word) - tolerance.best_first.begin());
+}
+
+bool is_not_asked(const Tolerance& tolerance, const std::string& word) {
+  return std::find(tolerance.not_asked.begin(), tolerance.not_asked.end(), word) != tolerance.not_asked.end();
+}
+
 Standing standing_of_words(const Tolerance& tolerance, const std::string& reference, const std::string& now) {
-  const auto& ranks = tolerance.best_first;
-  const auto before = std::find(ranks.begin(), ranks.end(), reference), after = std::find(ranks.begin(), ranks.end(), now);
-  if (before == ranks.end() || after == ranks.end()) return reference == now ? Standing::within : Standing::incomparable;
+  if (reference != now && (is_not_asked(tolerance, reference) || is_not_asked(tolerance, now))) return Standing::incomparable;
+  const std::size_t before = rank_of(tolerance, reference), after = rank_of(tolerance, now);
   if (before == after) return Standing::within;
   return after > before ? Standing::worse : Standing::better;
 }
@@ -143,7 +151,8 @@ class Comparer {
       status.quantity = "case";
       status.pointer = "/status";
       status.direction = Direction::ranked;
-      status.best_first = {"done", "failed"};
+      status.best_first = {"done"};
+      status.not_asked = {"not installed"};
       status.why = "a case that was done must be done again";
       return status;
     }();

@@ -13,7 +13,7 @@ enum class Direction {
   higher,
   equal,   ///< any change is for the worse
   nearer,  ///< to a value
-  ranked   ///< a word from a list, the best first
+  ranked   ///< a word: those of a list, the best first, then any other
 };
 
 /// What a quantity of a record may lose against the reference, for some cases. One entry of tolerances.json gives one for each quantity that it
@@ -24,7 +24,8 @@ struct Tolerance {
   std::string unit;                               ///< as in the registry of metrics; "change" for a share of the value at `change_from`
   Direction direction = Direction::equal;         ///< of a metric: the registry's
   double target = 0;                              ///< for `nearer`
-  std::vector<std::string> best_first;            ///< for `ranked`; a word that is not among them is not compared
+  std::vector<std::string> best_first;            ///< for `ranked`
+  std::vector<std::string> not_asked;             ///< words that say that there is nothing to compare
   std::string change_from;                        ///< the quantity is the relative change from the value there; empty: the value itself
   double absolute = 0;                            ///< in the quantity's unit
   double relative = 0;                            ///< of the reference's value

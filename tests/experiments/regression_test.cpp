@@ -184,8 +184,16 @@ TEST(Regression, AMethodWhoseProgramIsNotInstalledHereIsNotCompared) {
   EXPECT_THAT(to_text(comparison, false), HasSubstr("mmgs is not installed"));
 }
 
+TEST(Regression, AnyWordThatIsNotTheGoodOneIsWorse) {
+  for (const char* status : {"failed", "not_converged", "nonfinite", "something new"})
+    EXPECT_THAT(quantities_of(compared(with(full_record(), "/solvation/status", status), full_record()).worse), ElementsAre("solvation"))
+        << status;
+  const Json failed = with(full_record(), "/solvation/status", "not_converged");
+  EXPECT_THAT(compared(with(failed, "/solvation/status", "nonfinite"), failed).worse, IsEmpty()) << "one failure is as bad as another";
+}
+
 TEST(Regression, WhatWasNotAskedForIsNoRegression) {
-  for (const char* status : {"not computed", "over limit"}) {
+  for (const char* status : {"not computed", "over limit", "no_charges"}) {
     const Json now = with(full_record(), "/solvation", {{"status", status}, {"reason", "not for this molecule"}});
     const Comparison comparison = compared(now, full_record());
     EXPECT_THAT(comparison.worse, IsEmpty()) << status;
