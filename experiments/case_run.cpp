@@ -4,6 +4,7 @@
 
 #include "experiments/improve_run.h"
 #include "experiments/machine.h"
+#include "experiments/run_report.h"
 #include "experiments/tetgen_run.h"
 #include "metrics/measure.h"
 #include "metrics/measurement_json.h"
@@ -86,6 +87,7 @@ void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSu
   record["options"] = Json::object();
   record["threads"] = kTimedThreads;
   add_repeats(record, surface.repeats);
+  add_medians(record);
   record["peak_memory_mb"] = surface.peak_memory_mb;
   add_meshes(record, initial, initial);
 }
@@ -109,6 +111,7 @@ TriangleMesh run_method_case(Json& record, const Method& method, const OptionVal
     times.push_back(run.times);
   }
   add_repeats(record, times);
+  add_medians(record);
   record["peak_memory_mb"] = peak_memory_mb();
   add_outcome(record, run.preparation, run.report);
   JudgedMesh output = judge(std::move(run.mesh));

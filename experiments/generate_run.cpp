@@ -109,6 +109,9 @@ class Generation {
     return finished();
   }
 
+  /// Of what has been done.
+  [[nodiscard]] const StageTimes& times() const { return times_; }
+
  private:
   void read() {
     MoleculeReadReport read;
@@ -203,7 +206,16 @@ CavityPolicy parse_components(std::string_view text) {
 }
 
 GenerateRunResult run_generation(const GenerateRun& run, const ProgressCallback& progress) {
-  return Generation(run, progress).go();
+  std::vector<StageTimes> repeats;
+  GenerateRunResult result;
+  for (int i = 0; i < run.repeats; ++i) {
+    Generation generation(run, progress);
+    result = generation.go();
+    repeats.push_back(generation.times());
+  }
+  add_repeats(result.report, repeats);
+  add_medians(result.report);
+  return result;
 }
 
 }  // namespace smopt::experiments

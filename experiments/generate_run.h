@@ -27,6 +27,7 @@ struct GenerateRun {
   bool improve = false;            ///< SMOPT with its defaults (the paper: it "has been incorporated into TMSmesh 2.0")
   bool project = false;            ///< bring the vertices onto φ = c, after the improvement
   bool measures_distance = false;  ///< of the vertices to φ = c, for the report
+  int repeats = 1;                 ///< of everything, for the times; ≥ 1
   int digits = 0;                  ///< see MeshWriteOptions
 };
 

@@ -72,6 +72,24 @@ Json goals_json(const std::vector<GoalOutcome>& goals) {
   return json;
 }
 
+/// Of one repeat, from the mesh as read to the mesh as written.
+StageTimes all_times(const PreparationReport& preparation, const MethodReport& outcome, const Stopwatch& watch) {
+  StageTimes times = preparation.seconds;
+  times.insert(times.end(), outcome.seconds.begin(), outcome.seconds.end());
+  times.emplace_back("total", watch.elapsed());
+  return times;
+}
+
+/// The medians over the repeats, and `around`: what is done once (reading, writing, and the total of it all).
+void add_times(Json& report, const std::vector<StageTimes>& repeats, const StageTimes& around) {
+  add_repeats(report, repeats);
+  add_medians(report);
+  for (const auto& [stage, seconds] : around) {
+    report["seconds"][stage] = seconds.wall;
+    report["cpu_seconds"][stage] = seconds.cpu;
+  }
+}
+
 }  // namespace
 
 void add_outcome(Json& report, const PreparationReport& preparation, const MethodReport& outcome) {
@@ -117,15 +135,24 @@ ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& 
   if (!is_writable_mesh_format(run.output))
     throw InvalidOption(fmt::format("{}: not a mesh format that can be written ({})", run.output.string(), mesh_format_names()));
 
+  ImproveRunResult result;
   const Stopwatch total;
   StageTimes times;
-  TriangleMesh mesh = timed(times, "read", [&] { return read_mesh(run.input); });
-  Json input = mesh_json(mesh, run.input);
-  const PreparationReport preparation = prepare_file(mesh, cavities, run.input);
+  const TriangleMesh initial = timed(times, "read", [&] { return read_mesh(run.input); });
+  Json input = mesh_json(initial, run.input);
+  TriangleMesh mesh;
+  PreparationReport preparation;
+  MethodReport outcome;
+  std::vector<StageTimes> repeats;
+  for (int i = 0; i < run.repeats; ++i) {
+    const Stopwatch repeat;
+    mesh = initial;
+    preparation = prepare_file(mesh, cavities, run.input);
+    if (run.verify && i == 0) result.pairs_before = metrics::find_intersections(mesh, {0}).count;
+    outcome = method.run(mesh, values, progress);
+    repeats.push_back(all_times(preparation, outcome, repeat));
+  }
   input["euler_characteristic"] = input["euler_characteristic"].get<long>() - static_cast<long>(preparation.isolated_vertices);
-  ImproveRunResult result;
-  if (run.verify) result.pairs_before = metrics::find_intersections(mesh, {0}).count;
-  const MethodReport outcome = method.run(mesh, values, progress);
   report_progress(progress, "write", 0);  // an interrupt is still answered here
   timed(times, "write", [&] { write_mesh(run.output, mesh, {run.digits}); });
   if (run.verify) result.pairs_after = metrics::find_intersections(read_back(mesh, run), {0}).count;
@@ -138,10 +165,8 @@ ImproveRunResult run_improvement(const ImproveRun& run, const ProgressCallback& 
   report["input"] = input;
   report["output"] = mesh_json(mesh, run.output);
   add_outcome(report, preparation, outcome);
-  times.insert(times.end(), preparation.seconds.begin(), preparation.seconds.end());
-  times.insert(times.end(), outcome.seconds.begin(), outcome.seconds.end());
   times.emplace_back("total", total.elapsed());
-  add_seconds(report, times);
+  add_times(report, repeats, times);
   if (run.verify)
     report["verified"] = {{"pairs_before", number_or_null(result.pairs_before)}, {"pairs_after", number_or_null(result.pairs_after)}};
   add_program(report);

@@ -20,6 +20,7 @@ struct ImproveRun {
   std::map<std::string, std::string> options;  ///< the method's, as given; defaults are filled in
   std::optional<CavityPolicy> cavities;        ///< empty: the method's default
   int digits = 0;                              ///< see MeshWriteOptions
+  int repeats = 1;                             ///< of all but reading and writing, for the times; ≥ 1
   bool verify = false;                         ///< count intersecting pairs of the input and of the output as read back
 };
 

@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 
 #include "smopt/io/sha256.h"
@@ -18,6 +19,16 @@ constexpr std::array<const char*, 7> kStages = {"read", "validity", "cavities", 
 /// Of a closed manifold without isolated vertices, where 2 E = 3 F.
 long euler_characteristic(const TriangleMesh& mesh) {
   return static_cast<long>(mesh.vertex_count()) - static_cast<long>(mesh.triangle_count() / 2);
+}
+
+Json medians(const Json& repeats, const char* key) {
+  Json result = Json::object();
+  for (const auto& [stage, first] : repeats.front().at(key).items()) {
+    std::vector<double> values;
+    for (const Json& repeat : repeats) values.push_back(repeat.at(key).at(stage).get<double>());
+    result[stage] = median(std::move(values));
+  }
+  return result;
 }
 
 }  // namespace
@@ -43,6 +54,26 @@ void add_seconds(Json& report, const StageTimes& times) {
     report["seconds"][stage] = seconds.wall;
     report["cpu_seconds"][stage] = seconds.cpu;
   }
+}
+
+void add_repeats(Json& report, std::span<const StageTimes> repeats) {
+  Json all = Json::array();
+  for (const StageTimes& times : repeats) {
+    Json repeat;
+    add_seconds(repeat, times);
+    all.push_back(std::move(repeat));
+  }
+  report["repeats"] = all;
+}
+
+void add_medians(Json& report) {
+  for (const char* key : {"seconds", "cpu_seconds"}) report[key] = medians(report.at("repeats"), key);
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 void add_program(Json& report) {

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
 
 #include "smopt/mesh/triangle_mesh.h"
 #include "smopt/timing.h"
@@ -18,6 +20,15 @@ nlohmann::ordered_json mesh_json(const TriangleMesh& mesh, const std::filesystem
 /// `seconds` (wall) and `cpu_seconds`: one number a stage. Those of `improve` (validity, cavities, redundant, smoothing) are always there, and 0
 /// when they did not run.
 void add_seconds(nlohmann::ordered_json& report, const StageTimes& times);
+
+/// `repeats`: the `seconds` and `cpu_seconds` of each of several runs of the same thing.
+void add_repeats(nlohmann::ordered_json& report, std::span<const StageTimes> repeats);
+
+/// Of each stage the median over `repeats`, in place of `seconds` and `cpu_seconds`.
+void add_medians(nlohmann::ordered_json& report);
+
+/// The median; of an even number the mean of the middle two. \pre not empty
+double median(std::vector<double> values);
 
 /// `peak_memory_mb`, `threads` and `version`.
 void add_program(nlohmann::ordered_json& report);

@@ -22,23 +22,9 @@ Json without_energy(std::string_view status, std::string_view reason) {
   return {{"status", status}, {"reason", reason}};
 }
 
-Json options_json(const metrics::SolvationOptions& options) {
-  return {{"inner_permittivity", options.medium.inner},
-          {"outer_permittivity", options.medium.outer},
-          {"ionic_strength_mM", options.medium.ionic_strength},
-          {"temperature_K", options.medium.temperature},
-          {"surface_tension_kcal_per_mol_A2", options.surface_tension},
-          {"pressure_kcal_per_mol_A3", options.pressure},
-          {"accuracy", options.accuracy},
-          {"residual", options.residual},
-          {"restart", options.restart},
-          {"block", options.block},
-          {"max_iterations", options.max_iterations}};
-}
-
 Json solved(const TriangleMesh& mesh, const Molecule& molecule, const metrics::SolvationOptions& options) {
   Json json = metrics::to_json(metrics::solvate(mesh, molecule, options));
-  json["options"] = options_json(options);
+  json["options"] = metrics::to_json(options);
   json["threads"] = tbb::this_task_arena::max_concurrency();
   return json;
 }
@@ -48,7 +34,7 @@ Json solved(const TriangleMesh& mesh, const Molecule& molecule, const metrics::S
 SolvationPlan solvation_plan(const Dataset& dataset, std::string_view method, const SolvationSettings& settings) {
   if (method != kInitial && method != kSmopt) return {"only for Table 1", 0};
   if (!dataset.has_solvation) return {"not for this molecule", 0};
-  if (settings.is_quick && !dataset.is_quick) return {"not in a quick run", 0};
+  if (settings.is_quick && !dataset.is_in(kQuickSuite)) return {"not in a quick run", 0};
   return {"", settings.max_memory_bytes};
 }
 

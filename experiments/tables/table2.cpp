@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "experiments/record.h"
+#include "experiments/run_report.h"
 #include "experiments/tables/molecule_table.h"
 
 namespace smopt::experiments {

@@ -30,4 +30,18 @@ Json to_json(const Solvation& r) {
           {"predicted_memory_mb", finite_or_null(r.predicted_memory_mb)}};
 }
 
+Json to_json(const SolvationOptions& options) {
+  return {{"inner_permittivity", options.medium.inner},
+          {"outer_permittivity", options.medium.outer},
+          {"ionic_strength_mM", options.medium.ionic_strength},
+          {"temperature_K", options.medium.temperature},
+          {"surface_tension_kcal_per_mol_A2", options.surface_tension},
+          {"pressure_kcal_per_mol_A3", options.pressure},
+          {"accuracy", options.accuracy},
+          {"residual", options.residual},
+          {"restart", options.restart},
+          {"block", options.block},
+          {"max_iterations", options.max_iterations}};
+}
+
 }  // namespace smopt::metrics

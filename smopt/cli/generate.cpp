@@ -113,6 +113,10 @@ void add_generate(CLI::App& app, Context& context) {
   command->add_flag("--improve", arguments->run.improve, "improve the mesh as `smopt improve` does with its defaults");
   command->add_flag("--project", arguments->run.project, "move the vertices onto φ = c as far as no two triangles come to intersect");
   command->add_option("--report", arguments->report, "write what was done, and the vertices' distance to φ = c, as JSON to this file");
+  command
+      ->add_option("--repeats", arguments->run.repeats, "how often it is done, for the times in the report: all of them and their medians")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command->add_option("--digits", arguments->run.digits, "significant digits to write (default: enough to read the same doubles back)")
       ->check(CLI::Range(1, 17));
   command->add_flag("--json", arguments->is_json, "print the report");

@@ -111,7 +111,8 @@ void add_improve(CLI::App& app, Context& context) {
       "The mesh must be closed and manifold. With nothing but a mesh and -o, this does what the paper did: cavities and redundant points "
       "are\n"
       "deleted, then 100 rounds of Laplacian smoothing whose steps are halved until no two triangles intersect.\n"
-      "--method smopt2 changes the connectivity too, and is the one to pick for a simulation: regular triangles everywhere, the volume kept.\n"
+      "--method smopt2 changes the connectivity too, and is the one to pick for a simulation: regular triangles everywhere, the volume "
+      "kept.\n"
       "`smopt methods` lists all methods with their options; `smopt improve --method NAME --help` shows one method's.\n"
       "\n"
       "Examples:\n"
@@ -124,6 +125,10 @@ void add_improve(CLI::App& app, Context& context) {
   command->add_option("--method", arguments->run.method, "see `smopt methods`")->capture_default_str();
   command->add_option("--cavities", arguments->cavities, "delete, keep, or main: only the largest component (default: the method's)");
   command->add_option("--report", arguments->report, "write what was done as JSON to this file");
+  command
+      ->add_option("--repeats", arguments->run.repeats, "how often it is done, for the times in the report: all of them and their medians")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command->add_option("--digits", arguments->run.digits, "significant digits to write (default: enough to read the same doubles back)")
       ->check(CLI::Range(1, 17));
   command->add_flag("--verify", arguments->run.verify, "count intersecting pairs of the file as read back; exit 1 if there are new ones");

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include "smopt/error.h"
 #include "smopt/io/file.h"
 #include "smopt/io/mesh_io.h"
+#include "smopt/peak_memory.h"
 
 namespace smopt::cli {
 namespace {
@@ -20,10 +22,13 @@ namespace {
 using metrics::Solvation;
 using metrics::SolvationStatus;
 
+constexpr double kBytesPerMb = 1 << 20;
+
 struct Arguments {
   std::string mesh;
   std::string molecule;
   std::string output;
+  std::string report;
   metrics::SolvationOptions options;
   bool is_json = false;
 };
@@ -32,6 +37,7 @@ struct Arguments {
 void require_arguments(const Arguments& arguments) {
   if (arguments.mesh == "-" && arguments.molecule == "-")
     throw InvalidOption("the mesh and the molecule cannot both come from standard input");
+  if (!arguments.report.empty()) require_writable_place(arguments.report);
   if (arguments.output.empty()) return;
   if (!is_scalar_mesh_format(arguments.output))
     throw InvalidOption(
@@ -51,6 +57,26 @@ Solvation solve(const Arguments& arguments, const TriangleMesh& mesh, const Mole
   return metrics::solvate(mesh, molecule, arguments.options);
 } catch (const InvalidMesh& error) {
   throw InvalidMesh(fmt::format("{}: {}", display_name(arguments.mesh), error.what()));
+}
+
+/// Whether it needs more memory than --max-memory allows; the report says so then, with the estimate.
+bool is_over_limit(const Arguments& arguments, const TriangleMesh& mesh, const Molecule& molecule) {
+  const std::uint64_t limit = arguments.options.max_memory_bytes;
+  const double needed = limit == 0 ? 0 : metrics::predicted_solvation_bytes(mesh, molecule, arguments.options);
+  if (needed <= static_cast<double>(limit)) return false;
+  const double needed_mb = std::ceil(needed / kBytesPerMb);
+  const nlohmann::ordered_json report = {
+      {"status", "over limit"}, {"reason", fmt::format("needs {:.0f} MB", needed_mb)}, {"predicted_memory_mb", needed_mb}};
+  write_file(arguments.report, report.dump(2) + "\n");
+  return true;
+}
+
+void write_report(const Arguments& arguments, const Solvation& result) {
+  nlohmann::ordered_json report = metrics::to_json(result);
+  report["options"] = metrics::to_json(arguments.options);
+  report["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  report["peak_memory_mb"] = peak_memory_mb();
+  write_file(arguments.report, report.dump(2) + "\n");
 }
 
 /// Only PQR has charges; whoever gives another format should hear of it.
@@ -109,9 +135,14 @@ void run(Arguments& arguments, Context& context) {
   arguments.options.progress = bar.callback();
   const TriangleMesh mesh = read_mesh(arguments.mesh);
   const Molecule molecule = read_charges(arguments.molecule, context);
+  if (!arguments.report.empty() && is_over_limit(arguments, mesh, molecule)) {
+    context.exit_code = ExitCode::answer_is_no;
+    return;
+  }
   Solvation result = solve(arguments, mesh, molecule);
   explain_no_charges(result, arguments.molecule);
   if (!arguments.output.empty() && has_potential(result)) write_potential(arguments, mesh, result);
+  if (!arguments.report.empty()) write_report(arguments, result);
   if (arguments.is_json)
     fmt::print("{}\n", metrics::to_json(result).dump(2));
   else
@@ -129,7 +160,10 @@ void add_medium_options(CLI::App& command, metrics::SolvationOptions& options) {
 }
 
 void add_solver_options(CLI::App& command, metrics::SolvationOptions& options) {
-  command.add_option("--accuracy", options.accuracy, fmt::format("what the sums may change of the energy, relative; {} to {}", metrics::kBestAccuracy, metrics::kWorstAccuracy))
+  command
+      .add_option(
+          "--accuracy", options.accuracy,
+          fmt::format("what the sums may change of the energy, relative; {} to {}", metrics::kBestAccuracy, metrics::kWorstAccuracy))
       ->capture_default_str();
   command.add_flag("--direct", options.is_direct, "sum what is not integrated pair by pair: for reference, and slow");
   command.add_option("--residual", options.residual, "relative residual at which the linear system counts as solved")
@@ -171,6 +205,9 @@ void add_solvate(CLI::App& app, Context& context) {
                           scalar_mesh_format_names() + ", each also .gz)");
   add_medium_options(*command, arguments->options);
   add_solver_options(*command, arguments->options);
+  command->add_option(
+      "--report", arguments->report,
+      "write the result, the options and the memory used as JSON to this file; a solve that needs more than --max-memory is a result, too");
   command->add_flag("--json", arguments->is_json, "as JSON");
   command->callback([arguments, &context] { run(*arguments, context); });
 }

@@ -7,6 +7,7 @@
 #include "smopt/cli/command.h"
 #include "smopt/cli/progress_bar.h"
 #include "smopt/error.h"
+#include "smopt/io/file.h"
 #include "smopt/io/mesh_io.h"
 
 namespace smopt::cli {
@@ -15,6 +16,7 @@ namespace {
 struct Arguments {
   std::string mesh;
   std::string output;
+  std::string report;
   metrics::TetrahedralizeOptions options;
   bool is_json = false;
 };
@@ -31,6 +33,7 @@ void run(const Arguments& arguments, Context& context) {
   if (!arguments.output.empty() && !metrics::is_tet_mesh_format(arguments.output))
     throw InvalidOption(fmt::format("{}: a volume mesh is written as .vtu, .msh, .node or .ele", arguments.output));
   if (!arguments.output.empty()) require_writable_place(arguments.output);
+  if (!arguments.report.empty()) require_writable_place(arguments.report);
   metrics::TetrahedralizeOptions options = arguments.options;
   ProgressBar bar(context.is_quiet);
   options.progress = bar.callback();
@@ -38,8 +41,10 @@ void run(const Arguments& arguments, Context& context) {
   const CancellableSection section;
   const metrics::Tetrahedralization result = metrics::tetrahedralize(mesh, options);
   if (result.success && !arguments.output.empty()) metrics::write_tet_mesh(arguments.output, result.mesh);
+  const std::string json = metrics::to_json(result).dump(2) + "\n";
+  if (!arguments.report.empty()) write_file(arguments.report, json);
   if (arguments.is_json)
-    fmt::print("{}\n", metrics::to_json(result).dump(2));
+    fmt::print("{}", json);
   else
     print(result);
   if (!result.success) context.exit_code = ExitCode::answer_is_no;
@@ -67,6 +72,7 @@ void add_tetrahedralize(CLI::App& app, Context& context) {
   command->add_option("--max-memory", arguments->options.memory_limit_mb, "address space of TetGen, MB; 0: no limit")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command->add_option("--report", arguments->report, "write the result as JSON to this file");
   command->add_flag("--json", arguments->is_json, "as JSON");
   command->callback([arguments, &context] { run(*arguments, context); });
 }

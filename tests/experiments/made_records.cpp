@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "experiments/run_report.h"
+
 namespace smopt::testing {
 namespace {
 
@@ -78,6 +80,7 @@ void set_cpu_seconds(Json& record, const std::vector<CpuSeconds>& repeats) {
         {{"validity", {0, s.validity}}, {"cavities", {0, s.cavities}}, {"redundant", {0, s.redundant}}, {"smoothing", {0, s.smoothing}}});
   }
   experiments::add_repeats(record, times);
+  experiments::add_medians(record);
 }
 
 }  // namespace smopt::testing

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "experiments/run_report.h"
 #include "tests/experiments/made_records.h"
 
 namespace smopt::experiments {
