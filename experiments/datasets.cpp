@@ -13,10 +13,15 @@
 namespace smopt::experiments {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr std::array<std::pair<std::string_view, Role>, 4> kRoles = {
     {{"real", Role::real}, {"near-copy", Role::near_copy}, {"stand-in", Role::stand_in}, {"extra", Role::extra}}};
+
+constexpr std::array<std::string_view, 4> kSuites = {kDefaultSuite, kQuickSuite, kPaperSuite, kExtendedSuite};
+
+constexpr const char* kPdb2pqr = "pdb2pqr";
 
 Role parse_role(const std::string& text) {
   const auto* const found = std::find_if(kRoles.begin(), kRoles.end(), [&](const auto& entry) { return entry.first == text; });
@@ -32,6 +37,19 @@ GaussianSurfaceOptions parse_surface(const Json& json) {
   return options;
 }
 
+bool parse_preparation(const std::string& text) {
+  if (!text.empty() && text != kPdb2pqr) throw InvalidInput(fmt::format("prepare '{}' is not {}", text, kPdb2pqr));
+  return !text.empty();
+}
+
+std::vector<std::string> parse_suites(const Json& json) {
+  auto suites = json.get<std::vector<std::string>>();
+  for (const std::string& suite : suites)
+    if (std::ranges::find(kSuites, suite) == kSuites.end())
+      throw InvalidInput(fmt::format("suite '{}' is none of {}", suite, fmt::join(kSuites, ", ")));
+  return suites;
+}
+
 Dataset parse_dataset(const Json& json) {
   Dataset dataset;
   dataset.name = json.at("name").get<std::string>();
@@ -39,12 +57,26 @@ Dataset parse_dataset(const Json& json) {
   if (!json.at("paper_row").is_null()) dataset.paper_row = json.at("paper_row").get<std::string>();
   dataset.role = parse_role(json.at("role").get<std::string>());
   dataset.about = json.at("about").get<std::string>();
-  dataset.package = json.at("source").at("package").get<std::string>();
-  dataset.path = json.at("source").at("path").get<std::string>();
+  const Json& source = json.at("source");
+  dataset.package = source.value("package", "");
+  dataset.file = source.value("file", "");
+  dataset.pdb = source.value("pdb", "");
+  dataset.mesh = source.value("mesh", "");
+  if (dataset.file.empty() && dataset.mesh.empty())
+    dataset.path = source.at("path").get<std::string>();
+  else
+    dataset.path = source.value("path", "");
+  dataset.is_prepared_by_pdb2pqr = parse_preparation(source.value("prepare", ""));
   dataset.surface = parse_surface(json.at("surface"));
-  dataset.is_quick = json.at("is_quick").get<bool>();
+  dataset.suites = parse_suites(json.at("suites"));
   dataset.has_solvation = json.at("solvation").get<bool>();
   return dataset;
+}
+
+/// With a way to get it.
+std::string what_is_missing(const Dataset& dataset) {
+  const std::string entry = dataset.pdb.empty() ? "" : fmt::format(", made of the PDB entry {} (experiments/fetch_molecules gets it)", dataset.pdb);
+  return fmt::format("{}: needs the file {} in the folder that --data names{}", dataset.name, dataset.file, entry);
 }
 
 }  // namespace
@@ -71,6 +103,22 @@ const std::vector<Dataset>& all_datasets() {
   return datasets;
 }
 
+nlohmann::ordered_json to_json(const Dataset& dataset) {
+  nlohmann::ordered_json source = {
+      {"package", dataset.package},    {"file", dataset.file},          {"pdb", dataset.pdb},
+      {"path", dataset.path.string()}, {"mesh", dataset.mesh.string()}, {"prepare", dataset.is_prepared_by_pdb2pqr ? kPdb2pqr : ""}};
+  return {{"name", dataset.name},
+          {"title", dataset.title},
+          {"paper_row", dataset.paper_row ? Json(*dataset.paper_row) : Json()},
+          {"role", to_string(dataset.role)},
+          {"about", dataset.about},
+          {"source", source},
+          {"surface",
+           {{"decay_per_A2", dataset.surface.decay}, {"isovalue", dataset.surface.isovalue}, {"spacing_A", dataset.surface.spacing}}},
+          {"suites", dataset.suites},
+          {"solvation", dataset.has_solvation}};
+}
+
 std::vector<Dataset> find_datasets(std::span<const Dataset> datasets, std::span<const std::string> names) {
   std::vector<Dataset> found;
   for (const std::string& name : names) {
@@ -83,6 +131,24 @@ std::vector<Dataset> find_datasets(std::span<const Dataset> datasets, std::span<
     found.push_back(*it);
   }
   return found;
+}
+
+bool Dataset::is_in(std::string_view suite) const {
+  return std::ranges::find(suites, suite) != suites.end();
+}
+
+std::vector<Dataset> datasets_of(std::span<const Dataset> datasets, std::string_view suite) {
+  std::vector<Dataset> found;
+  for (const Dataset& dataset : datasets)
+    if (dataset.is_in(suite)) found.push_back(dataset);
+  return found;
+}
+
+void require_files(std::span<const Dataset> datasets) {
+  std::vector<std::string> missing;
+  for (const Dataset& dataset : datasets)
+    if (dataset.path.empty() && dataset.mesh.empty()) missing.push_back(what_is_missing(dataset));
+  if (!missing.empty()) throw InvalidInput(fmt::format("{}", fmt::join(missing, "\n")));
 }
 
 std::string labelled_title(std::string_view title, std::string_view role) {

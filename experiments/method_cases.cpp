@@ -20,6 +20,8 @@ MethodCase parse_case(const Json& json) {
   result.method = json.value("method", result.name);
   result.options = json.value("options", result.options);
   result.vertices_of = json.value("vertices_of", "");
+  result.cavities = json.value("cavities", result.cavities);
+  result.is_timed = json.value("is_timed", false);
   result.is_in_paper_tables = json.value("is_in_paper_tables", false);
   result.is_ablation = json.value("is_ablation", false);
   return result;
@@ -48,6 +50,18 @@ std::vector<std::string> all_compared_methods() {
   for (const MethodCase& method_case : all_method_cases())
     if (!method_case.is_ablation) names.push_back(method_case.name);
   return names;
+}
+
+nlohmann::ordered_json to_json(const MethodCase& method_case) {
+  return {{"name", method_case.name},
+          {"title", method_case.title},
+          {"method", method_case.method},
+          {"options", method_case.options},
+          {"vertices_of", method_case.vertices_of},
+          {"cavities", method_case.cavities},
+          {"is_timed", method_case.is_timed},
+          {"is_in_paper_tables", method_case.is_in_paper_tables},
+          {"is_ablation", method_case.is_ablation}};
 }
 
 MethodCase find_method_case(std::string_view name) {

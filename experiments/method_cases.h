@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,8 @@ struct MethodCase {
   std::string method;                          ///< its name in the registry of methods
   std::map<std::string, std::string> options;  ///< those that are not the method's defaults
   std::string vertices_of;                     ///< the case as many vertices as whose result are asked for; empty: none is
+  std::string cavities = "delete";             ///< as `smopt improve --cavities`
+  bool is_timed = false;                       ///< its time is in a table, so that it runs alone
   bool is_in_paper_tables = false;             ///< shown in Table 3 and Figures 5 to 7, which are the paper's
   bool is_ablation = false;                    ///< run when it is named, not with "all": a method with a part of it left out
 };
@@ -33,6 +36,9 @@ std::vector<std::string> all_compared_methods();
 
 /// Reads a text of the form of methods.json. \throws InvalidInput saying which entry is wrong.
 std::vector<MethodCase> parse_method_cases(std::string_view json);
+
+/// An entry of the form of methods.json that `parse_method_cases` reads back.
+nlohmann::ordered_json to_json(const MethodCase& method_case);
 
 /// The case of this name; for another name the registered method of that name with its defaults (which need not be there).
 MethodCase find_method_case(std::string_view name);

@@ -10,27 +10,26 @@
 namespace smopt::experiments {
 namespace {
 
+/// Without the folder of a user's files, which means nothing elsewhere.
+Json source_json(const Dataset& dataset) {
+  if (!dataset.package.empty()) return {{"package", dataset.package}, {"path", dataset.path.string()}};
+  const std::filesystem::path& used = dataset.mesh.empty() ? dataset.path : dataset.mesh;
+  Json source = {{"file", used.filename().string()}};
+  if (!dataset.pdb.empty()) source["pdb"] = dataset.pdb;
+  return source;
+}
+
 Json molecule_json(const Dataset& dataset) {
   return {{"name", dataset.name},
           {"title", dataset.title},
           {"role", to_string(dataset.role)},
           {"paper_row", dataset.paper_row ? Json(*dataset.paper_row) : Json()},
           {"about", dataset.about},
-          {"source", {{"package", dataset.package}, {"path", dataset.path.string()}}}};
+          {"source", source_json(dataset)}};
 }
 
 Json surface_json(const GaussianSurfaceOptions& options) {
   return {{"decay_per_A2", options.decay}, {"isovalue", options.isovalue}, {"spacing_A", options.spacing}};
-}
-
-Json medians(const Json& repeats, const char* key) {
-  Json result = Json::object();
-  for (const auto& [stage, first] : repeats.front().at(key).items()) {
-    std::vector<double> values;
-    for (const Json& repeat : repeats) values.push_back(repeat.at(key).at(stage).get<double>());
-    result[stage] = median(std::move(values));
-  }
-  return result;
 }
 
 }  // namespace
@@ -40,15 +39,19 @@ std::string method_title(std::string_view method) {
 }
 
 Json record_header(const Dataset& dataset, std::string_view method) {
+  return record_header(dataset, find_method_case(method));
+}
+
+Json record_header(const Dataset& dataset, const MethodCase& method_case) {
   Json record;
   record["schema_version"] = kRecordSchema;
   record["status"] = "failed";
   record["reason"] = "did not end";
   record["molecule"] = molecule_json(dataset);
   record["surface"] = surface_json(dataset.surface);
-  record["method"] = method;
-  record["registered_method"] = find_method_case(method).method;
-  record["method_title"] = method_title(method);
+  record["method"] = method_case.name;
+  record["registered_method"] = method_case.method;
+  record["method_title"] = method_case.title;
   record["version"] = version();
   record["compiler"] = compiler();
   record["machine"] = machine_json();
@@ -65,18 +68,6 @@ void add_surface(Json& record, const GeneratedSurface& surface) {
                                  {"interior_vertices", surface.report.interior_vertices}};
 }
 
-void add_repeats(Json& record, std::span<const StageTimes> repeats) {
-  Json all = Json::array();
-  for (const StageTimes& times : repeats) {
-    Json repeat;
-    add_seconds(repeat, times);
-    all.push_back(std::move(repeat));
-  }
-  record["repeats"] = all;
-  record["seconds"] = medians(all, "seconds");
-  record["cpu_seconds"] = medians(all, "cpu_seconds");
-}
-
 void mark_done(Json& record) {
   record["status"] = "done";
   record["reason"] = nullptr;
@@ -90,12 +81,6 @@ void mark_failed(Json& record, std::string_view reason) {
 void mark_not_installed(Json& record, std::string_view reason) {
   record["status"] = "not installed";
   record["reason"] = reason;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 }  // namespace smopt::experiments

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "experiments/datasets.h"
+#include "experiments/method_cases.h"
 #include "experiments/surface_stage.h"
 #include "smopt/timing.h"
 
@@ -22,20 +23,16 @@ std::string method_title(std::string_view method);
 
 /// The part of a record that is known before the case runs: molecule, surface, method, version, machine. Its status is "failed" until
 /// `mark_done`, so that a record is never taken for more than it is. `method` is the case's name, `registered_method` the registry's.
+Json record_header(const Dataset& dataset, const MethodCase& method_case);
+/// Of the case of this name.
 Json record_header(const Dataset& dataset, std::string_view method);
 
 /// What is known once the surface is there: atoms, the digest of the molecule's file, the generator's report.
 void add_surface(Json& record, const GeneratedSurface& surface);
 
-/// `repeats`: the seconds (wall) and cpu_seconds of every stage in every repeat; `seconds` and `cpu_seconds`: each stage's median.
-void add_repeats(Json& record, std::span<const StageTimes> repeats);
-
 void mark_done(Json& record);
 void mark_failed(Json& record, std::string_view reason);
 /// Of a case whose method needs a program that is not here: neither done nor failed.
 void mark_not_installed(Json& record, std::string_view reason);
-
-/// The median; of an even number the mean of the middle two. \pre not empty
-double median(std::vector<double> values);
 
 }  // namespace smopt::experiments

@@ -1,33 +1,79 @@
 #include "experiments/reproduce.h"
 
-#include "baselines/baselines.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "experiments/report.h"
+#include "smopt/error.h"
 
 namespace smopt::experiments {
 namespace {
 
-std::vector<Dataset> chosen_datasets(const ReproduceOptions& options) {
-  if (!options.molecules.empty()) return find_datasets(all_datasets(), options.molecules);
-  std::vector<Dataset> datasets = all_datasets();
-  if (options.is_quick) std::erase_if(datasets, [](const Dataset& dataset) { return !dataset.is_quick; });
-  return datasets;
+std::vector<Dataset> known_datasets(const ReproduceOptions& options) {
+  return options.data.empty() ? all_datasets() : with_data_folder(all_datasets(), options.data);
 }
 
-std::vector<std::string> chosen_methods(const ReproduceOptions& options) {
+std::vector<std::string> chosen_suites(const ReproduceOptions& options) {
+  if (!options.suites.empty()) return options.suites;
+  if (options.is_quick) return {std::string(kQuickSuite)};
+  if (options.is_full) return {std::string(kPaperSuite)};
+  return {std::string(kDefaultSuite)};
+}
+
+std::vector<Dataset> chosen_datasets(const ReproduceOptions& options) {
+  const std::vector<Dataset> known = known_datasets(options);
+  if (!options.molecules.empty()) return find_datasets(known, options.molecules);
+  const bool adds_folder = options.suites.empty() && !options.is_quick && !options.is_full;
+  const std::vector<std::string> suites = chosen_suites(options);
+  std::vector<Dataset> chosen;
+  for (const Dataset& dataset : known) {
+    const bool is_in = std::ranges::any_of(suites, [&](const std::string& suite) { return dataset.is_in(suite); });
+    if (is_in || (adds_folder && dataset.is_of_folder)) chosen.push_back(dataset);
+  }
+  return chosen;
+}
+
+std::vector<std::string> chosen_names(const ReproduceOptions& options) {
   return options.methods == std::vector<std::string>{"all"} ? all_compared_methods() : options.methods;
+}
+
+/// "smopt:guard=none".
+void apply_override(std::vector<MethodCase>& cases, const std::string& text) {
+  const std::size_t colon = text.rfind(':', text.find('=')), equals = text.find('=');
+  if (colon == std::string::npos || equals == std::string::npos || colon > equals)
+    throw InvalidOption(fmt::format("--override: expected METHOD:OPTION=VALUE, got '{}'", text));
+  const auto found = std::ranges::find(cases, text.substr(0, colon), &MethodCase::name);
+  if (found == cases.end()) throw InvalidOption(fmt::format("--override {}: no such method in this run", text));
+  found->options[text.substr(colon + 1, equals - colon - 1)] = text.substr(equals + 1);
+}
+
+std::vector<MethodCase> chosen_cases(const ReproduceOptions& options) {
+  std::vector<MethodCase> cases;
+  for (const std::string& name : chosen_names(options)) cases.push_back(find_method_case(name));
+  for (const std::string& text : options.overrides) apply_override(cases, text);
+  return cases;
 }
 
 }  // namespace
 
-RunSummary reproduce(const ReproduceOptions& options, const RunObserver& observer) {
-  RunOptions run;
+RunOptions run_options(const ReproduceOptions& options) {
+  RunOptions run = options.run;
   run.datasets = chosen_datasets(options);
-  run.methods = chosen_methods(options);
+  run.cases = chosen_cases(options);
   run.directory = options.directory;
-  run.repeats = options.is_quick ? 1 : options.repeats;
-  run.keeps_meshes = options.keeps_meshes;
-  run.solvation = {options.solvation_memory_bytes, options.is_quick};
-  RunSummary summary = run_cases(run, baselines::all_methods(), observer);
+  run.solvation.is_quick = options.is_quick;
+  if (options.is_quick) run.repeats = 1;
+  return run;
+}
+
+RunSummary reproduce(const ReproduceOptions& options, const RunObserver& observer) {
+  const RunOptions run = run_options(options);
+  if (options.is_plan_only) {
+    write_plan(run);
+    return {};
+  }
+  RunSummary summary = run_cases(run, observer);
   write_report(options.directory, observer.progress);
   return summary;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,14 +11,21 @@ namespace smopt::experiments {
 /// What `smopt reproduce` was asked to do.
 struct ReproduceOptions {
   std::filesystem::path directory = "results/run";  ///< where records, tables and figures go
-  std::vector<std::string> molecules;               ///< names of datasets; empty: all, with `is_quick` the small ones
+  std::filesystem::path data;                       ///< a folder of the user's molecules and meshes, see `with_data_folder`; empty: none
+  std::vector<std::string> molecules;               ///< names of datasets; empty: those of the suites
+  std::vector<std::string> suites;                  ///< empty: the default one and what `data` has
   std::vector<std::string> methods = {"initial",   "smopt",    "smopt2",
-                                      "laplacian", "iso2mesh", "meshlab"};      ///< as RunOptions; "all": all of methods.json but ablations
-  bool is_quick = false;                                                        ///< small molecules only, one repeat
-  int repeats = 3;                                                              ///< of everything that is timed; ≥ 1; 1 with `is_quick`
-  bool keeps_meshes = false;                                                    ///< write each case's mesh to `directory`/meshes
-  std::uint64_t solvation_memory_bytes = SolvationSettings().max_memory_bytes;  ///< a solve that needs more is a row that says so
+                                      "laplacian", "iso2mesh", "meshlab"};  ///< cases; "all": all of methods.json but ablations
+  std::vector<std::string> overrides;  ///< "smopt:guard=none": options of a case that are not those of methods.json
+  bool is_quick = false;               ///< the suite of small molecules, one repeat, no solvation of larger ones
+  bool is_full = false;                ///< the suite of the paper's six rows
+  bool is_plan_only = false;           ///< write plan.json and run nothing
+  RunOptions run;                      ///< all but what is said above: repeats, limits, resuming
 };
+
+/// The molecules, by name, suite and folder, and the cases, with what is overridden. \throws InvalidOption for an unknown name; InvalidInput for a
+/// folder that cannot be read.
+RunOptions run_options(const ReproduceOptions& options);
 
 /// Runs the experiments over the datasets and writes `directory`/records, tables and figures.
 /// \throws InvalidOption for an unknown name; InvalidInput when something cannot be written or Python's matplotlib is missing (the records

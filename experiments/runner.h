@@ -1,33 +1,32 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "experiments/datasets.h"
-#include "experiments/method_cases.h"
-#include "experiments/solvation_run.h"
-#include "smopt/improve/method.h"
+#include "experiments/run/run_plan.h"
 #include "smopt/progress.h"
 
 namespace smopt::experiments {
 
 /// The cases of a run, and how they are run.
-struct RunOptions {
-  std::vector<Dataset> datasets;
-  std::vector<std::string> methods;  ///< kInitial, names of methods.json or of the registry
-  std::filesystem::path directory;   ///< records go to `directory`/records/<molecule>/<method>.json
-  int repeats = 1;                   ///< of everything that is timed; ≥ 1
-  bool keeps_meshes = false;         ///< write `directory`/meshes/<molecule>/<method>.off
-  SolvationSettings solvation;
+struct RunOptions : PlanOptions {
+  std::filesystem::path directory;  ///< records go to `directory`/records/<molecule>/<method>.json
+  bool keeps_meshes = false;        ///< write `directory`/meshes/<molecule>/<method>.off
+  bool resumes = false;             ///< what was done in `directory` before, by the same program of the same files, is not done again
+  bool retries = false;             ///< with `resumes`: but what failed is
+  std::filesystem::path program;    ///< that does the steps; empty: the one that runs this
+  int jobs = 0;                     ///< steps at a time, at most; 0: as many as there are cores
+  std::uint64_t memory_bytes = 0;   ///< that steps together may take, by estimate; 0: two thirds of the machine's
 };
 
 /// Who is told how a run goes.
 struct RunObserver {
-  ProgressCallback progress;                        ///< the fraction of the whole run; returning false cancels
+  ProgressCallback progress;                        ///< what runs, and the fraction of the whole run; returning false cancels
   std::function<void(std::string_view line)> line;  ///< one line of text as each case ends
 };
 
@@ -42,18 +41,28 @@ struct CaseOutcome {
 };
 
 struct RunSummary {
-  std::vector<CaseOutcome> cases;  ///< in the order in which they ran
+  std::vector<CaseOutcome> cases;  ///< in the order of the plan
+  std::size_t steps_run = 0;       ///< commands
+  std::size_t steps_reused = 0;    ///< that an earlier run had done
   double seconds = 0;              ///< wall time
 
   [[nodiscard]] std::size_t count(CaseStatus status) const;
 };
 
-/// Runs every case (molecule × method) and writes its record as soon as it ends.
+/// Runs every case (molecule × method) and writes its record as soon as its steps have ended.
 ///
-/// A molecule's surface is generated and prepared once; every method gets the same mesh, without its cavities. A case that asks for the
-/// vertices of another's result gets their number, for which the other is run if it has not been. What a case throws is the
-/// reason in its record, and the others go on. \throws InvalidOption for a method that the registry does not have; InvalidInput when a
-/// record cannot be written; Cancelled.
-RunSummary run_cases(const RunOptions& options, const MethodRegistry& registry, const RunObserver& observer = {});
+/// Each step is a process of its own with limits on time and memory, so that a method that crashes, hangs or eats memory is a row with its reason and
+/// the others go on. Steps run beside each other as cores and memory allow; what is timed runs alone. `directory`/plan.json has the steps, and
+/// `directory`/steps what each left behind.
+/// \throws InvalidOption for a method that the registry does not have; InvalidInput when a molecule's file is missing, nothing can be written, or
+/// another run is at work in the folder; Cancelled.
+RunSummary run_cases(const RunOptions& options, const RunObserver& observer = {});
+
+/// Does one step of a plan, or one record. \param program  as in RunOptions. \return its status. \throws as `run_cases`.
+std::string run_planned_step(const std::filesystem::path& plan_file, const std::string& id, const std::filesystem::path& program,
+                             const ProgressCallback& progress);
+
+/// Writes `directory`/plan.json for other programs that run the steps. \return the plan.
+RunPlan write_plan(const RunOptions& options);
 
 }  // namespace smopt::experiments

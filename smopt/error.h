@@ -35,6 +35,9 @@ class NotInstalled : public MethodFailed {
   using MethodFailed::MethodFailed;
 };
 
+/// How the program begins its message of a method that is not installed, for programs that run it.
+inline constexpr const char* kNotInstalledPrefix = "not installed: ";
+
 /// The progress callback asked to stop.
 class Cancelled : public std::runtime_error {
  public:

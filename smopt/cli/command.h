@@ -39,6 +39,7 @@ void add_tetrahedralize(CLI::App& app, Context& context);
 void add_solvate(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
+void add_step(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_regress(CLI::App& app, Context& context);
 

@@ -39,6 +39,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_solvate(app, context);
   add_convert(app, context);
   add_reproduce(app, context);
+  add_step(app, context);
   add_report(app, context);
   add_regress(app, context);
 }
@@ -99,6 +100,8 @@ int main(int argc, char** argv) {
     return report_error(error.what(), ExitCode::wrong_usage);
   } catch (const smopt::InvalidInput& error) {
     return report_error(error.what(), ExitCode::bad_input);
+  } catch (const smopt::NotInstalled& error) {
+    return report_error(fmt::format("{}{}", smopt::kNotInstalledPrefix, error.what()).c_str(), ExitCode::answer_is_no);
   } catch (const smopt::MethodFailed& error) {
     return report_error(error.what(), ExitCode::answer_is_no);
   } catch (const smopt::Cancelled&) {

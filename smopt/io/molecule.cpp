@@ -114,6 +114,10 @@ Molecule read_molecule(const fs::path& path, const MoleculeReadOptions& options,
   return format.parse(text, name, options, report ? *report : own_report);
 }
 
+bool is_readable_molecule_format(const fs::path& path) {
+  return std::ranges::find(kFormats, format_ending(path), &MoleculeFormat::ending) != kFormats.end();
+}
+
 std::string molecule_format_names() {
   std::string names;
   for (const MoleculeFormat& format : kFormats) names += fmt::format("{}{}", names.empty() ? "" : ", ", format.ending);

@@ -36,6 +36,9 @@ struct MoleculeReadReport {
 /// \throws InvalidInput naming the file and the line. Cost: O(bytes); 0.1 s for the PQR of a ribosome's 240 000 atoms.
 Molecule read_molecule(const std::filesystem::path& path, const MoleculeReadOptions& options = {}, MoleculeReadReport* report = nullptr);
 
+/// Whether `read_molecule` knows the format, by the name's ending.
+bool is_readable_molecule_format(const std::filesystem::path& path);
+
 /// The formats by their endings, as help and messages list them: "pqr, pdb, …".
 std::string molecule_format_names();
 

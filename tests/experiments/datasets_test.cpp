@@ -24,21 +24,24 @@ std::vector<std::string> names_of(const std::vector<Dataset>& datasets) {
 }
 
 constexpr const char* kOne = R"({"molecules": [{"name": "n", "title": "T", "paper_row": null, "role": "stand-in", "about": "a",
-  "source": {"package": "p", "path": "/f.pqr"}, "surface": {"decay_per_A2": 0.5, "isovalue": 2, "spacing_A": 0.7}, "is_quick": true, "solvation": true}]})";
+  "source": {"package": "p", "path": "/f.pqr"}, "surface": {"decay_per_A2": 0.5, "isovalue": 2, "spacing_A": 0.7}, "suites": ["quick"], "solvation": true}]})";
 
 std::string one_with(const std::string& from, const std::string& to) {
   std::string text = kOne;
   return text.replace(text.find(from), from.size(), to);
 }
 
-TEST(Datasets, AreTheFiveMoleculesOfTheMainJob) {
-  EXPECT_THAT(names_of(all_datasets()), ElementsAre("ache-monomer", "achbp", "fas2", "actin-dimer", "1a63"));
+TEST(Datasets, TheDefaultOnesAreTheFiveMoleculesOfTheMainJob) {
+  EXPECT_THAT(names_of(datasets_of(all_datasets(), kDefaultSuite)), ElementsAre("ache-monomer", "achbp", "fas2", "actin-dimer", "1a63"));
+  EXPECT_THAT(names_of(datasets_of(all_datasets(), kQuickSuite)), ElementsAre("fas2", "1a63"));
 }
 
-TEST(Datasets, OnlyTheAcheMonomerHasARowInThePaperAndItIsThere) {
+TEST(Datasets, ThePapersSuiteIsItsSixRows) {
+  EXPECT_EQ(datasets_of(all_datasets(), kPaperSuite).size(), 6U);
   for (const Dataset& dataset : all_datasets()) {
-    EXPECT_EQ(dataset.paper_row.has_value(), dataset.name == "ache-monomer") << dataset.name;
-    EXPECT_EQ(dataset.role, dataset.paper_row ? Role::real : Role::extra) << dataset.name;
+    EXPECT_EQ(dataset.paper_row.has_value(), dataset.is_in(kPaperSuite)) << dataset.name;
+    EXPECT_EQ(dataset.role != Role::extra, dataset.paper_row.has_value()) << dataset.name;
+    EXPECT_EQ(dataset.role == Role::real, dataset.name == "ache-monomer") << dataset.name;
     EXPECT_EQ(paper_table(1).value(dataset.paper_row, "atoms").has_value(), dataset.paper_row.has_value()) << dataset.name;
   }
 }
@@ -46,6 +49,7 @@ TEST(Datasets, OnlyTheAcheMonomerHasARowInThePaperAndItIsThere) {
 TEST(Datasets, AreMeshedAsTheProgramDoesByDefault) {
   const GaussianSurfaceOptions defaults;
   for (const Dataset& dataset : all_datasets()) {
+    if (dataset.name == "4v5a_70S") continue;  // at the paper's number of vertices
     EXPECT_EQ(dataset.surface.decay, defaults.decay) << dataset.name;
     EXPECT_EQ(dataset.surface.isovalue, defaults.isovalue) << dataset.name;
     EXPECT_EQ(dataset.surface.spacing, defaults.spacing) << dataset.name;
@@ -55,7 +59,9 @@ TEST(Datasets, AreMeshedAsTheProgramDoesByDefault) {
 TEST(Datasets, NameWhoseSolvationEnergiesTable1Shows) {
   std::vector<Dataset> solved = all_datasets();
   std::erase_if(solved, [](const Dataset& dataset) { return !dataset.has_solvation; });
+  std::erase_if(solved, [](const Dataset& dataset) { return !dataset.is_in(kDefaultSuite); });
   EXPECT_THAT(names_of(solved), ElementsAre("ache-monomer", "fas2"));
+  for (const Dataset& dataset : datasets_of(all_datasets(), kPaperSuite)) EXPECT_TRUE(dataset.has_solvation) << dataset.name;
 }
 
 TEST(Datasets, ReadEveryField) {
@@ -71,7 +77,8 @@ TEST(Datasets, ReadEveryField) {
   EXPECT_EQ(d.surface.decay, 0.5);
   EXPECT_EQ(d.surface.isovalue, 2);
   EXPECT_EQ(d.surface.spacing, 0.7);
-  EXPECT_TRUE(d.is_quick);
+  EXPECT_TRUE(d.is_in(kQuickSuite));
+  EXPECT_FALSE(d.is_in(kDefaultSuite));
   EXPECT_TRUE(d.has_solvation);
 }
 
