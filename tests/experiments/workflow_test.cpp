@@ -1,0 +1,59 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "experiments/record.h"
+#include "experiments/run_layout.h"
+#include "tests/experiments/records_alike.h"
+#include "tests/support/files.h"
+#include "tests/support/program.h"
+
+namespace smopt::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using smopt::testing::bytes_of;
+using smopt::testing::ProgramResult;
+using smopt::testing::run_program;
+using smopt::testing::TemporaryFolder;
+using smopt::testing::without_times;
+
+constexpr const char* kSnakemake = "/usr/bin/snakemake";
+constexpr const char* kMethods[] = {"initial", "smopt", "laplacian"};
+
+/// The run's molecules: four atoms that are meshed, and a file that is none, whose cases fail.
+fs::path molecules_in(const TemporaryFolder& folder) {
+  fs::create_directories(folder.path() / "data");
+  static_cast<void>(folder.file("data/four.pqr",
+                                "ATOM 1 N  ALA 1 0.0 0.0 0.0 -0.3 1.8\n"
+                                "ATOM 2 CA ALA 1 1.4 0.2 0.1  0.1 1.9\n"
+                                "ATOM 3 C  ALA 1 2.1 1.5 0.3  0.5 1.9\n"
+                                "ATOM 4 O  ALA 1 1.6 2.6 0.7 -0.5 1.6\n"));
+  static_cast<void>(folder.file("data/none.pqr", "nothing of the kind\n"));
+  return folder.path() / "data";
+}
+
+TEST(Workflow, SnakemakeGivesTheRecordsOfTheProgramsOwnRunner) {
+  if (!fs::exists(kSnakemake)) GTEST_SKIP() << "Debian's snakemake is not installed";
+  const TemporaryFolder folder;
+  const fs::path data = molecules_in(folder), own = folder.path() / "own", planned = folder.path() / "planned";
+  const auto reproduce = [&](const fs::path& directory, const std::string& flag) {
+    return run_program(SMOPT_PROGRAM, {"reproduce", "-o", directory.string(), "--data", data.string(), "--molecules", "four,none",
+                                       "--methods", "initial,smopt,laplacian", "--repeats", "1", flag});
+  };
+  ASSERT_EQ(reproduce(own, "--resume").exit_code, 0);
+  ASSERT_EQ(reproduce(planned, "--plan").exit_code, 0);
+  const ProgramResult ran = run_program(kSnakemake, {"-s", SMOPT_SNAKEFILE, "--directory", planned.string(), "--cores", "2", "--config",
+                                                     std::string("smopt=") + SMOPT_PROGRAM});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  for (const char* molecule : {"four", "none"}) {
+    for (const char* method : kMethods) {
+      const auto record = [&](const fs::path& directory) { return Json::parse(bytes_of(record_path(directory, molecule, method))); };
+      EXPECT_EQ(without_times(record(planned)).dump(1), without_times(record(own)).dump(1)) << molecule << " " << method;
+      EXPECT_EQ(record(own).at("status"), molecule == std::string("four") ? "done" : "failed");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace smopt::experiments
