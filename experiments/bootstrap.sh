@@ -1,13 +1,26 @@
 # shellcheck shell=bash
 # Sourced by experiments/reproduce and tests/run: installs what is missing and builds a preset. Safe to repeat, quick when nothing is to do.
 
-# missing_packages [tests]: the packages of packages.txt that are not installed; with "tests" those that only the tests need too.
+# wanted_packages [tests | extended]: those of packages.txt that stand below no line "for … only", and with "extended" those for the extended
+# suite; with "tests" all of them.
+wanted_packages() {
+  awk -v want="${1-}" '
+    /^# for .* only/ { only = /suite extended/ ? "extended" : "tests"; next }
+    /^#/ { only = ""; next }
+    NF && (only == "" || only == want || want == "tests") { print $1 }' packages.txt
+}
+
+# is_there PACKAGE: whether it is installed, or what it is for is there without it.
+is_there() {
+  [ "$1" != npm ] || ! command -v npm >/dev/null || return 0
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+# missing_packages [tests | extended]: the wanted packages that are not there.
 missing_packages() {
-  local package last='/^# for .*run only/q'
-  [ "${1-}" != tests ] || last=
-  sed "$last" packages.txt | sed 's/#.*//' | while read -r package; do
-    [ -n "$package" ] || continue
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
+  local package
+  for package in $(wanted_packages "$@"); do
+    is_there "$package" || echo "$package"
   done
 }
 
@@ -23,7 +36,7 @@ as_root() {
   fi
 }
 
-# install_packages [tests]: installs what is missing.
+# install_packages [tests | extended]: installs what is missing.
 install_packages() {
   local missing
   missing=$(missing_packages "$@")
