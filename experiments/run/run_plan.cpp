@@ -180,7 +180,8 @@ class MoleculePlanner {
     Step tetrahedralize = step(subject, "tetrahedralize", "-" + trial.switches, kTetgenMemory,
                                trial.switches == kQualitySwitches ? kQualityWeight : kTetgenWeight);
     command(tetrahedralize,
-            {"tetrahedralize", mesh_of(subject), "--switches", trial.switches, "--time-limit", fmt::format("{}", trial.time_limit_seconds)},
+            {"tetrahedralize", mesh_of(subject), "--switches", trial.switches, "--time-limit", fmt::format("{}", trial.time_limit_seconds),
+             "--max-memory", fmt::format("{}", options_.step_memory_mb)},
             1);
     tetrahedralize.inputs = {mesh_of(subject)};
     tetrahedralize.after = {after};
