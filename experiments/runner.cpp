@@ -159,7 +159,7 @@ class Run {
     for (const std::string& line : lines) observer_.line(line);
     std::vector<std::string> ids;
     for (const std::size_t index : running) ids.push_back(plan_.steps[index].id);
-    if (observer_.progress && !observer_.progress(fmt::format("{}", fmt::join(ids, ", ")), fraction)) {
+    if (observer_.progress && !observer_.progress(fmt::format("experiments: {}", fmt::join(ids, ", ")), fraction)) {
       is_cancelled_ = true;
       throw Cancelled();
     }

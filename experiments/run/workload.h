@@ -9,13 +9,13 @@
 namespace smopt::experiments {
 
 /// How much of a run is done, by the weights of its steps and the sizes of the molecules' files: what a step costs grows about as they do. Steps that
-/// an earlier run did count for the fraction, not for the pace.
+/// an earlier run did are not part of it.
 class Workload {
  public:
   explicit Workload(const RunPlan& plan);
 
   void finish(std::size_t step, bool was_done_before);
-  [[nodiscard]] double fraction() const { return total_ > 0 ? done_ / total_ : 1; }
+  [[nodiscard]] double fraction() const { return total_ > reused_ ? (done_ - reused_) / (total_ - reused_) : 1; }
   /// Seconds; 0 before anything can be said.
   [[nodiscard]] double seconds_left() const;
   [[nodiscard]] double seconds() const;

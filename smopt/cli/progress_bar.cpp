@@ -46,8 +46,8 @@ void ProgressBar::print_line(std::string_view line) {
 
 void ProgressBar::show(std::string_view stage, double fraction) {
   const Clock::time_point now = Clock::now();
-  if (stage != stage_) {
-    stage_ = stage;
+  if (const std::string_view name = stage.substr(0, stage.find(':')); name != stage_) {
+    stage_ = name;
     stage_start_ = now;
   }
   if (now - stage_start_ < kPatience || now - last_shown_ < kRefresh || fraction <= 0) return;

@@ -10,7 +10,8 @@
 
 namespace smopt::cli {
 
-/// A bar with the time left on standard error, for stages that take longer than a second; nothing when that is not a terminal. Its callback
+/// A bar with the time left on standard error, for stages that take longer than a second ("experiments: smopt, measure" is the stage "experiments" and
+/// what it does just now); nothing when that is not a terminal. Its callback
 /// also makes the stage stop at Ctrl-C; until its first call Ctrl-C ends the program at once, as it may be waiting for input.
 class ProgressBar {
  public:
