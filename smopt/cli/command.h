@@ -38,6 +38,7 @@ void add_measure(CLI::App& app, Context& context);
 void add_tetrahedralize(CLI::App& app, Context& context);
 void add_solvate(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
+void add_ablate(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
 void add_step(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);

@@ -38,6 +38,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_tetrahedralize(app, context);
   add_solvate(app, context);
   add_convert(app, context);
+  add_ablate(app, context);
   add_reproduce(app, context);
   add_step(app, context);
   add_report(app, context);
