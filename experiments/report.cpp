@@ -1,15 +1,18 @@
 #include "experiments/report.h"
 
 #include "experiments/figures/figures.h"
+#include "experiments/page/page.h"
 #include "experiments/record_set.h"
 #include "experiments/tables/write_tables.h"
 
 namespace smopt::experiments {
 
-void write_report(const std::filesystem::path& directory, const ProgressCallback& progress) {
+ReportOutcome write_report(const std::filesystem::path& directory, const ProgressCallback& progress) {
   const RecordSet records = RecordSet::load(directory);
   write_tables(records, directory / "tables");
+  ReportOutcome outcome{write_page(records, directory, progress)};
   draw_figures(records, directory, progress);
+  return outcome;
 }
 
 }  // namespace smopt::experiments

@@ -1,13 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "smopt/progress.h"
 
 namespace smopt::experiments {
 
-/// Writes `directory`/tables and `directory`/figures from the records of a run, and from nothing else.
-/// \throws InvalidInput when there are no records or one cannot be read; or, once the tables are written, when matplotlib is missing.
-void write_report(const std::filesystem::path& directory, const ProgressCallback& progress = {});
+/// What a report lacks.
+struct ReportOutcome {
+  std::optional<std::string> why_no_page;  ///< where report.html was not written; nothing when it was
+};
+
+/// Writes `directory`/tables, `directory`/report.html and `directory`/figures from the records of a run, and from nothing else; the page shows
+/// the run's meshes where it still has them.
+/// \throws InvalidInput when there are no records or one cannot be read; or, once the tables and the page are written, when matplotlib is missing.
+ReportOutcome write_report(const std::filesystem::path& directory, const ProgressCallback& progress = {});
 
 }  // namespace smopt::experiments
