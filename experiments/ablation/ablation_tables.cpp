@@ -13,7 +13,7 @@ constexpr double kPerCent = 100;
 
 /// "not counted" where pairs are not, or the number, or nothing where the row says why as a whole.
 Cell value_cell(const Quantity& quantity, const Outcomes& outcomes, const std::string& name) {
-  if (const auto value = outcomes.value(quantity, name)) return Decimal{*value, quantity.decimals};
+  if (const auto value = outcomes.value(quantity, name)) return Decimal{rounded(*value, quantity.decimals), quantity.decimals};
   const std::string why = outcomes.why_no_value(quantity, name);
   return outcomes.is_done(name) && why == "not counted" ? Cell(why) : Cell();
 }
@@ -92,7 +92,8 @@ Row main_effect_row(const AblationPlan& plan, const std::vector<std::optional<Ef
   Row row = {plan.factors[which].title, plan.factors[which].levels[levels[level]].title};
   for (std::size_t q = 0; q < effects.size(); ++q) {
     const Quantity& quantity = ablation_quantities()[q];
-    row.push_back(effects[q] ? decimal_cell(level_mean(quantity, *effects[q], factor, level), quantity.decimals) : Cell());
+    const auto mean = effects[q] ? level_mean(quantity, *effects[q], factor, level) : std::nullopt;
+    row.push_back(mean ? Cell(Decimal{rounded(*mean, mean_decimals(quantity)), mean_decimals(quantity)}) : Cell());
   }
   return row;
 }

@@ -91,6 +91,11 @@ Json effects_json(const Quantity& quantity, const Effects& effects) {
   return {{"level_means", means}, {"shares", shares}, {"rest_share", number_or_null(effects.rest_share)}, {"left_out", left_out}};
 }
 
+bool varies_noticeably(const Quantity& quantity, const Outcomes& outcomes, const AblationPlan& plan) {
+  const auto range = range_over(quantity, outcomes, full_factorial(plan, plan.factorial));
+  return range && is_noticeable(quantity, range->second, range->first);
+}
+
 Json factorial_json(const AblationPlan& plan, const std::vector<Outcomes>& molecules) {
   Json rows = Json::array();
   for (const Outcomes& outcomes : molecules) {
@@ -98,6 +103,7 @@ Json factorial_json(const AblationPlan& plan, const std::vector<Outcomes>& molec
     for (const Quantity& quantity : ablation_quantities()) {
       const std::optional<Effects> found = effects_on(quantity, outcomes, plan, plan.factorial);
       effects[quantity.id] = found ? effects_json(quantity, *found) : Json();
+      if (found) effects[quantity.id]["is_noticeable"] = varies_noticeably(quantity, outcomes, plan);
     }
     rows.push_back({{"title", outcomes.title()}, {"effects", effects}});
   }

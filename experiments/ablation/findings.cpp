@@ -12,6 +12,8 @@ constexpr double kPerCent = 100;
 
 /// Interactions below are not worth a sentence.
 constexpr double kLeastShare = 0.01;
+/// From here on what three parts and more do together is told too.
+constexpr double kMuchShare = 0.1;
 
 std::string default_name(const AblationPlan& plan) {
   return design_case(plan, default_levels(plan)).method_case.name;
@@ -93,8 +95,8 @@ std::string means_in_words(const AblationPlan& plan, const Quantity& quantity, c
   std::vector<std::string> means;
   for (std::size_t level = 0; level < plan.factorial[place].levels.size(); ++level)
     if (const auto mean = level_mean(quantity, effects, place, level))
-      means.push_back(
-          fmt::format("{} with {}", in_words(quantity, mean), factor_of(plan, place).levels[plan.factorial[place].levels[level]].title));
+      means.push_back(fmt::format("{} with {}", mean_in_words(quantity, *mean),
+                                  factor_of(plan, place).levels[plan.factorial[place].levels[level]].title));
   return fmt::format("{}", fmt::join(means, ", "));
 }
 
@@ -124,6 +126,12 @@ std::string interaction_words(const AblationPlan& plan, const Effects& effects) 
                      factor_of(plan, strongest->other).title, percent(strongest->share));
 }
 
+/// What three parts and more do together, where it is a lot.
+std::string rest_words(const Effects& effects) {
+  if (!effects.rest_share || *effects.rest_share < kMuchShare) return "";
+  return fmt::format("; three parts and more together make {}", percent(*effects.rest_share));
+}
+
 std::string factorial_finding(const AblationPlan& plan, const Outcomes& outcomes, const Quantity& quantity) {
   const std::string head = upper_first(quantity.words);
   const std::optional<Effects> effects = effects_on(quantity, outcomes, plan, plan.factorial);
@@ -133,8 +141,9 @@ std::string factorial_finding(const AblationPlan& plan, const Outcomes& outcomes
   if (!is_noticeable(quantity, most, least))
     return fmt::format("{}: hardly varies ({} to {}).", head, in_words(quantity, least), in_words(quantity, most));
   const auto main = largest_share(*effects, false);
-  return fmt::format("{}: **{}** does the most ({} of the variation; on average {}); {}.", head, factor_of(plan, main->factor).title,
-                     percent(main->share), means_in_words(plan, quantity, *effects, main->factor), interaction_words(plan, *effects));
+  return fmt::format("{}: **{}** does the most ({} of the variation; on average {}); {}{}.", head, factor_of(plan, main->factor).title,
+                     percent(main->share), means_in_words(plan, quantity, *effects, main->factor), interaction_words(plan, *effects),
+                     rest_words(*effects));
 }
 
 /// "edge ratio 0.1, angle 10°".

@@ -34,7 +34,15 @@ ROW_SHARE = 0.5  # of a row over which the molecules are spread
 CONTOUR_LEVELS = 8
 DARK_BELOW = 0.55  # part of the colour scale below which text is white
 
-PLAIN = matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
+THOUSANDS_FROM = 10_000  # larger numbers are written with their thousands apart
+
+
+def plain(value):
+    text = f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}") if abs(value) >= THOUSANDS_FROM else f"{value:g}"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+PLAIN = matplotlib.ticker.FuncFormatter(lambda value, _: plain(value))
 
 
 def set_style():
@@ -88,14 +96,15 @@ def set_least_span(axes, along, quantity, values):
 
 
 def set_scale(axes, along, quantity, values):
-    """Along "x" or "y". Logarithmic axes get plain numbers; a symmetric one is logarithmic on both sides of a linear middle."""
+    """Along "x" or "y". Logarithmic axes get plain numbers; a symmetric one is, where it is to show all cases beside each other ("x"), logarithmic
+    on both sides of a linear middle."""
     set_to, ticks = (axes.set_xscale, axes.xaxis) if along == "x" else (axes.set_yscale, axes.yaxis)
     if quantity["scale"] == "logarithmic" and values and min(values) > 0:
         set_to("log")
         is_short = max(values) < 40 * min(values)
         ticks.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5) if is_short else (1,)))
         ticks.set_minor_formatter(matplotlib.ticker.NullFormatter())
-    elif quantity["scale"] == "symmetric" and values and max(map(abs, values)) > 10 * quantity["linear_to"]:
+    elif along == "x" and quantity["scale"] == "symmetric" and values and max(map(abs, values)) > 10 * quantity["linear_to"]:
         set_to("symlog", linthresh=quantity["linear_to"])
         ticks.set_major_locator(matplotlib.ticker.SymmetricalLogLocator(base=10, linthresh=quantity["linear_to"]))
         ticks.get_major_locator().set_params(numticks=6)
@@ -275,7 +284,8 @@ def draw_shares(axes, factors, effects, panel):
     if effects is None or effects["rest_share"] is None:
         panel.notes.append("alike in all cases" if effects else "cannot be told")
     else:
-        panel.notes.append(f"three and more: {100 * effects['rest_share']:.0f} %")
+        hardly = "" if effects["is_noticeable"] else "hardly varies; "
+        panel.notes.append(f"{hardly}three and more: {100 * effects['rest_share']:.0f} %")
     axes.text(1, 1, panel.notes[-1], transform=axes.transAxes, ha="right", va="top", fontsize=7, style="italic")
     return image
 
@@ -333,8 +343,8 @@ def draw_grid(axes, figure, quantity, grid, xs, ys, panel):
         is_log = quantity["scale"] == "logarithmic" and levels[0] > 0 and levels[-1] > 4 * levels[0]
         norm = matplotlib.colors.LogNorm(levels[0], levels[-1]) if is_log else matplotlib.colors.Normalize(levels[0], levels[-1])
         filled = axes.contourf(xs, ys, numpy.ma.masked_invalid(values), levels=levels, cmap=SEQUENTIAL, norm=norm)
-        lines = axes.contour(xs, ys, numpy.ma.masked_invalid(values), levels=levels, colors="white", linewidths=0.7)
-        labels = axes.clabel(lines, fmt=lambda value: f"{value:g}".replace("-", "\N{MINUS SIGN}"), fontsize=7, inline=True, colors="white")
+        lines = axes.contour(xs, ys, numpy.ma.masked_invalid(values), levels=levels[1:-1], colors="white", linewidths=0.7)
+        labels = axes.clabel(lines, fmt=plain, fontsize=7, inline=True, colors="white")
         for label in labels:
             label.set_clip_on(True)
             label.set_path_effects([matplotlib.patheffects.withStroke(linewidth=1.6, foreground="#222222")])

@@ -133,8 +133,22 @@ bool is_noticeable(const Quantity& quantity, double value, double reference) {
   return change_size(quantity, value, reference) >= 1;
 }
 
+double rounded(double value, int decimals) {
+  constexpr int kBase = 10;
+  const double scale = std::pow(kBase, decimals);
+  return std::round(value * scale) / scale + 0.0;
+}
+
+int mean_decimals(const Quantity& quantity) {
+  return std::max(quantity.decimals, 1);
+}
+
+std::string mean_in_words(const Quantity& quantity, double mean) {
+  return fmt::format("{:.{}f}{}", rounded(mean, mean_decimals(quantity)), mean_decimals(quantity), quantity.unit);
+}
+
 std::string in_words(const Quantity& quantity, const std::optional<double>& value) {
-  return value ? fmt::format("{:.{}f}{}", *value, quantity.decimals, quantity.unit) : "none";
+  return value ? fmt::format("{:.{}f}{}", rounded(*value, quantity.decimals), quantity.decimals, quantity.unit) : "none";
 }
 
 }  // namespace smopt::experiments

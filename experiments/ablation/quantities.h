@@ -45,7 +45,15 @@ const Quantity& find_quantity(std::string_view id);
 double change_size(const Quantity& quantity, double value, double reference);
 bool is_noticeable(const Quantity& quantity, double value, double reference);
 
+/// Decimals of a mean over cases: of a count, too, one.
+int mean_decimals(const Quantity& quantity);
+
+/// The value to so many decimals; never a negative zero.
+double rounded(double value, int decimals);
+
 /// "12.50 %", "3"; "none" where there is no number.
 std::string in_words(const Quantity& quantity, const std::optional<double>& value);
+/// The same of a mean over cases.
+std::string mean_in_words(const Quantity& quantity, double mean);
 
 }  // namespace smopt::experiments

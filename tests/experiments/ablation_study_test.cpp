@@ -191,6 +191,12 @@ TEST_F(AblationStudy, ThePageSaysWhatDoesTheMostToEachQuantity) {
               Contains(AllOf(HasSubstr("smallest angle: from 10.00° (edge-ratio 0.1, min-angle 10°)"))));
 }
 
+TEST(AblationQuantities, ANumberThatRoundsToZeroHasNoSign) {
+  EXPECT_EQ(in_words(find_quantity("volume_change_percent"), -1e-9), "0.00 %");
+  EXPECT_EQ(in_words(find_quantity("volume_change_percent"), -0.006), "-0.01 %");
+  EXPECT_EQ(in_words(find_quantity("intersecting_pairs"), std::nullopt), "none");
+}
+
 TEST_F(AblationStudy, WhatASwitchDoesNotChangeIsSaid) {
   for (const FactorFinding& finding : one_at_a_time_findings(plan(), outcomes()))
     if (finding.title == "Rounds") {
