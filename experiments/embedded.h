@@ -10,7 +10,6 @@ std::string_view methods_json();     ///< methods.json
 std::string_view paper_table1();     ///< paper/table1.csv
 std::string_view paper_table2();     ///< paper/table2.csv
 std::string_view paper_table3();     ///< paper/table3.csv
-std::string_view plot_program();     ///< figures/plot.py
 std::string_view claims_json();      ///< claims/claims.json
 std::string_view tolerances_json();  ///< regression/tolerances.json
 

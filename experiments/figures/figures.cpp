@@ -4,39 +4,78 @@
 #include <fmt/ranges.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 
-#include "experiments/embedded.h"
+#include "experiments/figures/figure4_input.h"
+#include "experiments/figures/programs.h"
 #include "smopt/error.h"
 #include "smopt/io/child_process.h"
+#include "smopt/io/scratch_folder.h"
 
 namespace smopt::experiments {
 namespace {
 
-/// Ten molecules take seconds; much longer is a Python that hangs.
-constexpr double kTimeLimitSeconds = 600;
+/// Thirty molecules and Figure 4 of a million vertices take minutes; much longer is a Python that hangs.
+constexpr double kTimeLimitSeconds = 3600;
+constexpr std::string_view kNote = "note: ";  ///< before what plot.py has to tell
 
 std::string python() {
   const char* given = std::getenv("SMOPT_PYTHON");
   return given != nullptr && *given != '\0' ? given : "/usr/bin/python3";
 }
 
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  if (!stream.flush()) throw InvalidInput(fmt::format("{}: cannot be written", path.string()));
+}
+
+std::vector<std::string> notes_in(const std::string& output) {
+  std::vector<std::string> notes;
+  std::istringstream stream(output);
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(kNote)) notes.push_back(line.substr(kNote.size()));
+  return notes;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
 }  // namespace
 
-void draw_figures(const RecordSet& records, const std::filesystem::path& directory, const ProgressCallback& progress) {
-  const std::vector<std::string> command = {python(),
-                                            "-c",
-                                            std::string(embedded::plot_program()),
-                                            directory.string(),
-                                            "--molecules",
-                                            fmt::format("{}", fmt::join(records.molecules(), ",")),
-                                            "--methods",
-                                            fmt::format("{}", fmt::join(paper_methods(records), ",")),
-                                            "--compared",
-                                            fmt::format("{}", fmt::join(records.methods(), ","))};
+void write_figure_programs(const std::filesystem::path& folder) {
+  for (const auto& [name, text] : embedded::figure_programs()) write_text(folder / name, text);
+}
+
+std::vector<std::string> draw_figures(const RecordSet& records, const std::filesystem::path& directory, const ProgressCallback& progress,
+                                      const FigureOptions& options) {
+  const std::string molecule = figure4_molecule(records, options.figure4_molecule);
+  const ScratchFolder folder("figures");
+  write_figure_programs(folder / "");
+  std::vector<std::string> command = {python(),
+                                      (folder / "plot.py").string(),
+                                      directory.string(),
+                                      "--molecules",
+                                      joined(records.molecules()),
+                                      "--methods",
+                                      joined(paper_methods(records)),
+                                      "--compared",
+                                      joined(records.methods())};
   if (!std::filesystem::exists(command.front()))
     throw InvalidInput(fmt::format("figures: {} does not exist (Debian package python3-matplotlib; or set SMOPT_PYTHON)", command.front()));
+  std::vector<std::string> notes;
+  if (const auto input = figure4_input(directory, molecule, folder)) {
+    write_text(folder / "figure4.json", input->dump());
+    command.insert(command.end(), {"--figure4", (folder / "figure4.json").string()});
+  } else {
+    notes.push_back(fmt::format("figure 4 is left out: the run has kept no meshes of {} (smopt reproduce --keep-meshes)", molecule));
+  }
   const ProcessOutcome outcome = run_process(command, {kTimeLimitSeconds, 0}, "figures", progress);
   if (outcome.exit_status != 0) throw InvalidInput(fmt::format("figures: {} failed: {}", command.front(), outcome.output));
+  for (std::string& note : notes_in(outcome.output)) notes.push_back(std::move(note));
+  return notes;
 }
 
 }  // namespace smopt::experiments

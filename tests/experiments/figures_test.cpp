@@ -1,5 +1,6 @@
 #include "experiments/figures/figures.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
@@ -7,10 +8,10 @@
 #include <fstream>
 #include <optional>
 
-#include "experiments/embedded.h"
 #include "experiments/run_layout.h"
 #include "smopt/error.h"
 #include "smopt/io/child_process.h"
+#include "smopt/io/mesh_io.h"
 #include "tests/experiments/made_records.h"
 #include "tests/support/files.h"
 
@@ -59,11 +60,13 @@ void save_run(const std::filesystem::path& directory) {
   save(directory, testing::failed_record(stand_in, "smopt", "the reason of the failure"));
 }
 
-/// Runs the plotting program by itself; returns the bars it drew, by figure.
+/// Runs the plotting program by itself; returns what it drew, by figure.
 Json drawn_bars(const std::filesystem::path& directory) {
+  const TemporaryFolder program;
+  write_figure_programs(program.path());
   const auto dump = directory / "bars.json";
   const ProcessOutcome outcome =
-      run_process({"/usr/bin/python3", "-c", std::string(embedded::plot_program()), directory.string(), "--dump", dump.string()},
+      run_process({"/usr/bin/python3", (program.path() / "plot.py").string(), directory.string(), "--dump", dump.string()},
                   {kTimeLimitSeconds, 0}, "figures", {});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.output;
   return Json::parse(bytes_of(dump));
@@ -93,6 +96,7 @@ class DrawnFigures : public ::testing::Test {
   /// Of a molecule in a panel of the figure of all methods: [value, row of the method].
   static const Json& points(int column, const char* molecule) { return panel(bars_.at("methods"), 0, column).at("points").at(molecule); }
 
+  static const Json& bars_of(const char* figure) { return bars_.at(figure); }
   static const Json& panel_of(const char* figure, int column) { return panel(bars_.at(figure), 0, column); }
 
   inline static std::optional<TemporaryFolder> first_;
@@ -129,15 +133,28 @@ TEST_F(DrawnFigures, TheBarsOfFigures6And7AreTheRecordsCounts) {
 }
 
 TEST_F(DrawnFigures, Figure5ShowsTheInitialMeshWithAndWithoutCavitiesBesideEachMethod) {
-  // Bars of one series follow each other: the two molecules of "initial", of "initial, cavities deleted", of SMOPT, of plain Laplacian, of
-  // MeshLab, whose mesh has diverged: no bar, and the step in its place.
-  const auto heights = [](int row) {
+  // Points of one series: the two molecules, as far as they have the value. MeshLab's mesh has diverged: no point.
+  const auto values = [](int row, const char* series) {
     std::vector<double> list;
-    for (const Json& bar : bars("fig5", row, 0)) list.push_back(bar[2].get<double>());
+    const Json& all = panel(bars_of("fig5"), row, 0).at("points");
+    if (all.contains(series))
+      for (const Json& point : all.at(series)) list.push_back(point[0].get<double>());
     return list;
   };
-  EXPECT_THAT(heights(0), ::testing::ElementsAre(290, 290, 300.5, 0, 290, 0, 290, 0, 0, 0));
-  EXPECT_THAT(heights(1), ::testing::ElementsAre(880, 880, 900.25, 0, 880, 0, 880, 0, 0, 0));
+  EXPECT_THAT(values(0, "initial"), ::testing::ElementsAre(290, 290));
+  EXPECT_THAT(values(0, "initial, cavities deleted"), ::testing::ElementsAre(300.5));
+  EXPECT_THAT(values(0, "smopt"), ::testing::ElementsAre(290));
+  EXPECT_THAT(values(0, "meshlab"), ::testing::IsEmpty());
+  EXPECT_THAT(values(1, "initial, cavities deleted"), ::testing::ElementsAre(900.25));
+  EXPECT_THAT(values(1, "laplacian"), ::testing::ElementsAre(880));
+}
+
+TEST_F(DrawnFigures, Figure5TellsEachMethodsChangeAndWhyThereIsNone) {
+  const Json& changes = panel(bars_of("fig5"), 1, 1);
+  EXPECT_NEAR(changes.at("points").at("smopt")[0][0].get<double>(), 100 * (880 / 900.25 - 1), 1e-9);
+  EXPECT_FALSE(changes.at("points").contains("initial")) << "no method's";
+  EXPECT_THAT(changes.at("notes").get<std::vector<std::string>>(),
+              ::testing::IsSupersetOf({"MeshLab: diverged at step 7", "SMOPT: failed", "plain Laplacian: not run"}));
 }
 
 TEST_F(DrawnFigures, TheFigureOfAllMethodsHasAPointForEachMethodThatHasTheNumber) {
@@ -164,11 +181,51 @@ TEST_F(DrawnFigures, TheFigureOfAllMethodsPutsAMethodsPointsInItsRow) {
 TEST_F(DrawnFigures, TheFigureOfAllMethodsTellsWhereAResultHasNoPointAndWhatAPointLeavesOut) {
   // In the order of the molecules, then of the methods. The capsid's one result is that of the mesh as generated, with pairs alone.
   const auto notes = [](int column) { return panel_of("methods", column).at("notes").get<std::vector<std::string>>(); };
-  EXPECT_THAT(notes(0), ::testing::UnorderedElementsAre("none", "failed", "diverged"));
+  EXPECT_THAT(notes(0), ::testing::UnorderedElementsAre("none", "1 failed", "1 diverged"));
   EXPECT_THAT(notes(1), ::testing::ElementsAre("none"));
   EXPECT_THAT(notes(2), ::testing::ElementsAre("12 without a foot", "none"));
   EXPECT_THAT(notes(3), ::testing::IsEmpty());
   EXPECT_THAT(notes(4), ::testing::ElementsAre("none", "0", "none")) << "the meshes as generated took no method's time";
+}
+
+/// Records of `count` molecules "m0", "m1", …, of which the first `paper` have a row in the paper, and of both SMOPT's.
+void save_molecules(const std::filesystem::path& directory, int count, int paper) {
+  for (int i = 0; i < count; ++i) {
+    Dataset dataset = testing::made_dataset(fmt::format("m{:02}", i));
+    if (i < paper) dataset.paper_row = dataset.title;
+    for (const char* method : {"initial", "smopt"}) save(directory, compared_record(dataset, method));
+  }
+}
+
+TEST(Figures, ThePapersFiguresShowThePapersMoleculesAndExtraPagesTheOthers) {
+  const TemporaryFolder folder;
+  save_molecules(folder.path(), 15, 3);
+  const Json drawn = drawn_bars(folder.path());
+  EXPECT_EQ(drawn.at("fig6").size(), 3U * 2) << "rows by columns";
+  EXPECT_EQ(drawn.at("fig6-extra-1").size(), 10U * 2);
+  EXPECT_EQ(drawn.at("fig6-extra-2").size(), 2U * 2);
+  EXPECT_FALSE(drawn.contains("fig6-extra-3"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "figures" / "fig5-extra-2.svg"));
+}
+
+TEST(Figures, PagesOfALargerRunBeforeAreRemoved) {
+  const TemporaryFolder folder;
+  save_molecules(folder.path(), 4, 2);
+  std::filesystem::create_directories(folder.path() / "figures");
+  std::ofstream(folder.path() / "figures" / "fig6-extra-9.png") << "old";
+  EXPECT_EQ(drawn_bars(folder.path()).at("fig6").size(), 4U * 2) << "two molecules of the paper are too few for a figure of their own";
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "figures" / "fig6-extra-9.png"));
+}
+
+TEST(Figures, OfManyMoleculesTheMedianIsShownAndTheOthersAreCounted) {
+  const TemporaryFolder folder;
+  save_molecules(folder.path(), 8, 0);
+  save(folder.path(), testing::failed_record(testing::made_dataset("m01"), "smopt", "a reason"));
+  const Json drawn = drawn_bars(folder.path());
+  const Json& first = panel(drawn.at("methods"), 0, 0);
+  ASSERT_EQ(first.at("points").at("median").size(), 2U);
+  EXPECT_EQ(first.at("points").at("median")[1][0], 12.5);
+  EXPECT_THAT(first.at("notes").get<std::vector<std::string>>(), ::testing::Contains("1 failed"));
 }
 
 /// Sets an environment variable until the end of the scope.
