@@ -8,12 +8,11 @@
 namespace smopt::experiments {
 namespace {
 
-/// The metrics of the initial mesh without its cavities: what a case that deletes them was given.
+/// The metrics of the initial mesh without its cavities, which every record of a run has as those before.
 const RecordSet::Json* given_metrics(const RecordSet& records, const std::string& molecule) {
   for (const std::string& name : records.methods()) {
     const RecordSet::Json* const record = records.find(molecule, name);
-    if (is_done(record) && text_at(record, "/options/cavities") == "delete" && record->at("metrics").contains("before"))
-      return &record->at("metrics").at("before");
+    if (is_done(record) && record->at("metrics").contains("before")) return &record->at("metrics").at("before");
   }
   return nullptr;
 }
