@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "experiments/report.h"
 #include "smopt/error.h"
 
 namespace smopt::experiments {
@@ -67,14 +66,14 @@ RunOptions run_options(const ReproduceOptions& options) {
   return run;
 }
 
-RunSummary reproduce(const ReproduceOptions& options, const RunObserver& observer) {
+ReproduceSummary reproduce(const ReproduceOptions& options, const RunObserver& observer) {
   const RunOptions run = run_options(options);
   if (options.is_plan_only) {
     write_plan(run);
     return {};
   }
-  RunSummary summary = run_cases(run, observer);
-  write_report(options.directory, observer.progress);
+  ReproduceSummary summary{run_cases(run, observer), {}};
+  summary.report = write_report(options.directory, observer.progress);
   return summary;
 }
 

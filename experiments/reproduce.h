@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/report.h"
 #include "experiments/runner.h"
 
 namespace smopt::experiments {
@@ -23,6 +24,10 @@ struct ReproduceOptions {
   RunOptions run;                      ///< all but what is said above: repeats, limits, resuming
 };
 
+struct ReproduceSummary : RunSummary {
+  ReportOutcome report;
+};
+
 /// The molecules, by name, suite and folder, and the cases, with what is overridden. \throws InvalidOption for an unknown name; InvalidInput for a
 /// folder that cannot be read.
 RunOptions run_options(const ReproduceOptions& options);
@@ -30,6 +35,6 @@ RunOptions run_options(const ReproduceOptions& options);
 /// Runs the experiments over the datasets and writes `directory`/records, tables and figures.
 /// \throws InvalidOption for an unknown name; InvalidInput when something cannot be written or Python's matplotlib is missing (the records
 /// and tables are there then); Cancelled. A case that fails is no exception: the summary tells it.
-RunSummary reproduce(const ReproduceOptions& options, const RunObserver& observer = {});
+ReproduceSummary reproduce(const ReproduceOptions& options, const RunObserver& observer = {});
 
 }  // namespace smopt::experiments

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "experiments/report.h"
+
 namespace smopt::cli {
 
 /// What a command came to; the number is the program's exit code.
@@ -29,6 +31,9 @@ void require_writable_mesh(const std::string& file);
 
 /// \throws InvalidInput when no file of that name can be written where it should be: told before any work is done.
 void require_writable_place(const std::string& file);
+
+/// Tells, on standard error, what a report lacks and why.
+void print_left_out(const experiments::ReportOutcome& report);
 
 /// Each adds its subcommand to the program.
 void add_generate(CLI::App& app, Context& context);

@@ -49,11 +49,12 @@ void run(const experiments::ReproduceOptions& options, Context& context) {
   experiments::RunObserver observer;
   observer.progress = bar.callback();
   if (!context.is_quiet) observer.line = [&bar](std::string_view line) { bar.print_line(line); };
-  const experiments::RunSummary summary = experiments::reproduce(options, observer);
+  const experiments::ReproduceSummary summary = experiments::reproduce(options, observer);
   if (options.is_plan_only) {
     fmt::print("{}\n", (options.directory / "plan.json").string());
     return;
   }
+  print_left_out(summary.report);
   if (context.is_quiet) return;
   fmt::print("\n{}\n{}; tables and figures are in {}\n", read_file(options.directory / "tables" / "methods.md"), counts_of(summary),
              options.directory.string());
