@@ -6,9 +6,7 @@
 #include "experiments/ablation/ablation_page.h"
 #include "experiments/ablation/ablation_tables.h"
 #include "experiments/run_layout.h"
-#include "experiments/tables/csv.h"
-#include "experiments/tables/latex.h"
-#include "experiments/tables/markdown.h"
+#include "experiments/tables/write_tables.h"
 #include "smopt/error.h"
 #include "smopt/io/file.h"
 
@@ -44,12 +42,6 @@ std::vector<Table> tables_of(const AblationPlan& plan, const std::vector<Outcome
     for (const auto& make : {main_effects_table, interactions_table, factorial_table}) tables.push_back(make(plan, molecules));
   if (designs.thresholds) tables.push_back(thresholds_table(plan, molecules));
   return tables;
-}
-
-void write_table(const Table& table, const std::filesystem::path& folder) {
-  write_file(folder / (table.name + ".md"), to_markdown(table));
-  write_file(folder / (table.name + ".csv"), to_csv(table));
-  write_file(folder / (table.name + ".tex"), to_latex(table));
 }
 
 }  // namespace

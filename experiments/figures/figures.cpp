@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 #include "experiments/figures/figure4_input.h"
 #include "experiments/figures/programs.h"
-#include "smopt/error.h"
-#include "smopt/io/child_process.h"
+#include "experiments/figures/python.h"
+#include "smopt/io/file.h"
 #include "smopt/io/scratch_folder.h"
 
 namespace smopt::experiments {
@@ -19,17 +17,6 @@ namespace {
 /// Thirty molecules and Figure 4 of a million vertices take minutes; much longer is a Python that hangs.
 constexpr double kTimeLimitSeconds = 3600;
 constexpr std::string_view kNote = "note: ";  ///< before what plot.py has to tell
-
-std::string python() {
-  const char* given = std::getenv("SMOPT_PYTHON");
-  return given != nullptr && *given != '\0' ? given : "/usr/bin/python3";
-}
-
-void write_text(const std::filesystem::path& path, std::string_view text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw InvalidInput(fmt::format("{}: cannot be written", path.string()));
-}
 
 std::vector<std::string> notes_in(const std::string& output) {
   std::vector<std::string> notes;
@@ -46,7 +33,7 @@ std::string joined(const std::vector<std::string>& names) {
 }  // namespace
 
 void write_figure_programs(const std::filesystem::path& folder) {
-  for (const auto& [name, text] : embedded::figure_programs()) write_text(folder / name, text);
+  for (const auto& [name, text] : embedded::figure_programs()) write_file(folder / name, text);
 }
 
 std::vector<std::string> draw_figures(const RecordSet& records, const std::filesystem::path& directory, const ProgressCallback& progress,
@@ -54,27 +41,22 @@ std::vector<std::string> draw_figures(const RecordSet& records, const std::files
   const std::string molecule = figure4_molecule(records, options.figure4_molecule);
   const ScratchFolder folder("figures");
   write_figure_programs(folder / "");
-  std::vector<std::string> command = {python(),
-                                      (folder / "plot.py").string(),
-                                      directory.string(),
-                                      "--molecules",
-                                      joined(records.molecules()),
-                                      "--methods",
-                                      joined(paper_methods(records)),
-                                      "--compared",
-                                      joined(records.methods())};
-  if (!std::filesystem::exists(command.front()))
-    throw InvalidInput(fmt::format("figures: {} does not exist (Debian package python3-matplotlib; or set SMOPT_PYTHON)", command.front()));
+  std::vector<std::string> arguments = {(folder / "plot.py").string(),
+                                        directory.string(),
+                                        "--molecules",
+                                        joined(records.molecules()),
+                                        "--methods",
+                                        joined(paper_methods(records)),
+                                        "--compared",
+                                        joined(records.methods())};
   std::vector<std::string> notes;
   if (const auto input = figure4_input(directory, molecule, folder)) {
-    write_text(folder / "figure4.json", input->dump());
-    command.insert(command.end(), {"--figure4", (folder / "figure4.json").string()});
+    write_file(folder / "figure4.json", input->dump());
+    arguments.insert(arguments.end(), {"--figure4", (folder / "figure4.json").string()});
   } else {
     notes.push_back(fmt::format("figure 4 is left out: the run has kept no meshes of {} (smopt reproduce --keep-meshes)", molecule));
   }
-  const ProcessOutcome outcome = run_process(command, {kTimeLimitSeconds, 0}, "figures", progress);
-  if (outcome.exit_status != 0) throw InvalidInput(fmt::format("figures: {} failed: {}", command.front(), outcome.output));
-  for (std::string& note : notes_in(outcome.output)) notes.push_back(std::move(note));
+  for (std::string& note : notes_in(run_python(arguments, kTimeLimitSeconds, progress))) notes.push_back(std::move(note));
   return notes;
 }
 

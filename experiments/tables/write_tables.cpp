@@ -11,14 +11,16 @@
 
 namespace smopt::experiments {
 
+void write_table(const Table& table, const std::filesystem::path& folder) {
+  write_file(folder / (table.name + ".md"), to_markdown(table));
+  write_file(folder / (table.name + ".csv"), to_csv(table));
+  write_file(folder / (table.name + ".tex"), to_latex(table));
+}
+
 void write_tables(const RecordSet& records, const std::filesystem::path& folder) {
   std::error_code ignored;  // if the folder cannot be made, writing says so
   std::filesystem::create_directories(folder, ignored);
-  for (const Table& table : {table1(records), table2(records), table3(records), methods_table(records)}) {
-    write_file(folder / (table.name + ".md"), to_markdown(table));
-    write_file(folder / (table.name + ".csv"), to_csv(table));
-    write_file(folder / (table.name + ".tex"), to_latex(table));
-  }
+  for (const Table& table : {table1(records), table2(records), table3(records), methods_table(records)}) write_table(table, folder);
 }
 
 }  // namespace smopt::experiments
