@@ -11,6 +11,9 @@ namespace smopt::experiments {
 /// The pseudo-method: the mesh as it was generated.
 inline constexpr std::string_view kInitial = "initial";
 
+/// The mesh that the methods get: the initial one without its cavities. No case; a run has its mesh by this name.
+inline constexpr std::string_view kWithoutCavities = "without-cavities";
+
 /// The cases of this project's own methods.
 inline constexpr std::string_view kSmopt = "smopt";
 inline constexpr std::string_view kSmopt2 = "smopt2";

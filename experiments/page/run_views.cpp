@@ -12,7 +12,6 @@
 namespace smopt::experiments {
 namespace {
 
-constexpr std::string_view kWithoutCavities = "without-cavities";
 constexpr std::string_view kWithoutCavitiesTitle = "initial, cavities deleted";
 
 std::string view_title(std::string_view method) {

@@ -66,11 +66,16 @@ void add_molecule(Json& record, const CaseFiles& files) {
   record["surface"]["report"] = report.at("sampling");
 }
 
-/// As it is in a record: without what is not of the mesh alone.
-Json metrics_of(const CaseFiles& files, const std::string& measure) {
-  Json metrics = files.report(measure);
-  metrics.erase("level_set_distance");
-  return metrics;
+/// What a measurement says of the mesh alone, and apart from that how far it is from the molecule's level set.
+struct Measured {
+  Json metrics, distance;
+};
+
+Measured measured_by(const CaseFiles& files, const std::string& measure) {
+  Measured measured{files.report(measure), {}};
+  measured.distance = measured.metrics.value("level_set_distance", Json());
+  measured.metrics.erase("level_set_distance");
+  return measured;
 }
 
 Json mesh_json(const Json& metrics, const Json& sha256) {
@@ -82,14 +87,12 @@ Json mesh_json(const Json& metrics, const Json& sha256) {
 
 void add_metrics(Json& record, const CaseFiles& files) {
   const CasePlan& planned = files.planned();
-  const std::string& measure_input = files.is_initial() ? planned.measure : planned.measure_input;
-  const Json before = metrics_of(files, measure_input), after = metrics_of(files, planned.measure);
-  const std::string before_mesh = files.is_initial() ? planned.generate : fmt::format("{}/without-cavities.improve", planned.dataset.name);
-  record["input"] = mesh_json(before, files.mesh_sha256(before_mesh));
-  record["output"] = mesh_json(after, files.mesh_sha256(files.maker()));
-  record["metrics"] = {{"before", before}, {"after", after}};
-  const auto distance = [&](const std::string& measure) { return files.report(measure).value("level_set_distance", Json()); };
-  record["level_set_distance"] = {{"before", distance(measure_input)}, {"after", distance(planned.measure)}};
+  const Measured after = measured_by(files, planned.measure);
+  const Measured before = files.is_initial() ? after : measured_by(files, planned.measure_input);
+  record["input"] = mesh_json(before.metrics, files.mesh_sha256(files.is_initial() ? planned.generate : planned.input));
+  record["output"] = mesh_json(after.metrics, files.mesh_sha256(files.maker()));
+  record["metrics"] = {{"before", before.metrics}, {"after", after.metrics}};
+  record["level_set_distance"] = {{"before", before.distance}, {"after", after.distance}};
 }
 
 /// The times of every repeat and their medians, of the method alone: the step reads and writes files besides.
@@ -110,9 +113,8 @@ void add_generated(Json& record, const CaseFiles& files) {
 /// A number of vertices that was taken from another case's mesh is told as a number.
 Json told_options(const Json& report, const CaseFiles& files) {
   Json options = report.at("options");
-  const std::string& other = files.planned().method_case.vertices_of;
-  if (!other.empty()) {
-    options["vertices"] = files.report(fmt::format("{}/{}.improve", files.planned().dataset.name, other)).at("output").at("vertices");
+  if (const std::string& matched = files.planned().matched; !matched.empty()) {
+    options["vertices"] = files.report(matched).at("output").at("vertices");
     options.erase("match");
   }
   return options;

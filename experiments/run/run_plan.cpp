@@ -15,8 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPrepared = "without-cavities";  ///< the mesh that the methods get
-constexpr int kTimedThreads = 1;                            ///< Table 2 counts seconds on one processor, as the paper's does
+constexpr int kTimedThreads = 1;  ///< Table 2 counts seconds on one processor, as the paper's does
 
 /// What a step takes, MB: so much, and so many times its input meshes (50 bytes a vertex as PLY). Measured on the AChE monomer and connexin, rounded up.
 struct MemoryUse {
@@ -92,8 +91,12 @@ class MoleculePlanner {
     const std::string unpacked = fmt::format("steps/{}/molecule.{}", dataset_.name, format_ending(dataset_.path));
     const std::string pqr = fmt::format("steps/{}/molecule.pqr", dataset_.name);
     prepare.command = {
-        "/bin/sh", "-c",     R"(gzip -cdf "$0" > "$1" && pdb2pqr --ff=AMBER --nodebump --noopt --drop-water "$1" "$2.beside" && mv "$2.beside" "$2")",
-        molecule_, unpacked, pqr};
+        "/bin/sh",
+        "-c",
+        R"(gzip -cdf "$0" > "$1" && pdb2pqr --ff=AMBER --nodebump --noopt --drop-water "$1" "$2.beside" && mv "$2.beside" "$2")",
+        molecule_,
+        unpacked,
+        pqr};
     prepare.inputs = {molecule_};
     prepare.outputs = {pqr};
     molecule_ = pqr;
@@ -123,16 +126,16 @@ class MoleculePlanner {
       generate.inputs = {file};
     }
     generate_ = add(std::move(generate));
-    Step prepare = step(kPrepared, "improve", "", kLightMemory, kShortWeight);
-    prepare.outputs = {mesh_of(kPrepared)};
-    command(
-        prepare,
-        {"improve", mesh, "-o", mesh_of(kPrepared), "--method", "smopt", "--rounds", "0", "--redundant", "keep", "--cavities", "delete"},
-        kTimedThreads);
+    Step prepare = step(kWithoutCavities, "improve", "", kLightMemory, kShortWeight);
+    prepare.outputs = {mesh_of(kWithoutCavities)};
+    command(prepare,
+            {"improve", mesh, "-o", mesh_of(kWithoutCavities), "--method", "smopt", "--rounds", "0", "--redundant", "keep", "--cavities",
+             "delete"},
+            kTimedThreads);
     prepare.inputs = {mesh};
     prepare.after = {generate_};
-    const std::string prepared = add(std::move(prepare));
-    measure_input_ = add_measure(kPrepared, prepared);
+    input_ = add(std::move(prepare));
+    measure_input_ = add_measure(kWithoutCavities, input_);
   }
 
   std::string add_measure(std::string_view subject, const std::string& after) {
@@ -208,6 +211,8 @@ class MoleculePlanner {
     const bool is_initial = method_case.name == kInitial;
     if (!is_initial) {
       planned.improve = improve(method_case);
+      if (!method_case.vertices_of.empty()) planned.matched = improved_.at(method_case.vertices_of);
+      planned.input = input_;
       planned.measure_input = measure_input_;
     }
     const std::string& made_by = is_initial ? generate_ : planned.improve;
@@ -238,7 +243,7 @@ class MoleculePlanner {
   const PlanOptions& options_;
   const Dataset& dataset_;
   std::string molecule_;  ///< the file that surfaces are made of; empty where there is none
-  std::string prepared_, generate_, measure_input_;
+  std::string prepared_, generate_, input_, measure_input_;
   std::map<std::string, std::string> improved_;
 };
 

@@ -29,7 +29,9 @@ struct PlanOptions {
 struct CasePlan {
   Dataset dataset;
   MethodCase method_case;
-  std::string generate, improve, measure, measure_input;
+  std::string generate, improve, measure;
+  std::string input, measure_input;  ///< of the mesh without cavities
+  std::string matched;               ///< of the case that the number of vertices is taken from
   std::map<std::string, std::string> tetrahedralize;  ///< by TetGen's switches
   std::string solvate;
   std::string why_no_solvation;  ///< in words, where there is no `solvate`

@@ -120,7 +120,6 @@ void clear(const Step& step, const fs::path& directory) {
 }
 
 StepOutcome run_command(const Step& step, const StepPlace& place, const ProgressCallback& progress) {
-  Json stamp;
   const std::string key = step_key(step, place);
   ProcessLimits limits;
   limits.seconds = step.limits.seconds;
@@ -129,7 +128,7 @@ StepOutcome run_command(const Step& step, const StepPlace& place, const Progress
   surroundings.folder = place.directory;
   const ProcessOutcome ended = run_process(command_line(step, place), limits, step.rule.c_str(), progress, surroundings);
   StepOutcome outcome = judge(step, ended, place.directory);
-  stamp = stamp_of(step, outcome);
+  Json stamp = stamp_of(step, outcome);
   stamp["key"] = key;
   stamp["sha256"] = outcome.status == kDone ? digests_of(step, place.directory) : Json::object();
   stamp["version"] = version();
