@@ -5,7 +5,6 @@
 #include "experiments/improve_run.h"
 #include "experiments/machine.h"
 #include "experiments/run_report.h"
-#include "experiments/tetgen_run.h"
 #include "metrics/measure.h"
 #include "metrics/measurement_json.h"
 #include "smopt/error.h"
@@ -83,20 +82,6 @@ void record_outcome(Json& record, const std::function<void()>& fill) {
   }
 }
 
-void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface) {
-  record["options"] = Json::object();
-  record["threads"] = kTimedThreads;
-  add_repeats(record, surface.repeats);
-  add_medians(record);
-  record["peak_memory_mb"] = surface.peak_memory_mb;
-  add_meshes(record, initial, initial);
-}
-
-std::size_t vertices_after(const Method& method, const OptionValues& options, const TriangleMesh& initial,
-                           const ProgressCallback& progress) {
-  return run_once(method, options, initial, progress).mesh.vertex_count();
-}
-
 TriangleMesh run_method_case(Json& record, const Method& method, const OptionValues& options, const TriangleMesh& initial,
                              const JudgedMesh& input, int repeats, const ProgressCallback& progress) {
   record["options"] = options_json(method, options);
@@ -117,12 +102,6 @@ TriangleMesh run_method_case(Json& record, const Method& method, const OptionVal
   JudgedMesh output = judge(std::move(run.mesh));
   add_meshes(record, input, output);
   return std::move(output.mesh);
-}
-
-void add_simulations(Json& record, const TriangleMesh& mesh, const Molecule& molecule, const SolvationPlan& solvation,
-                     const ProgressCallback& progress) {
-  record["tetgen"] = tetgen_of(mesh, tetgen_trials(record.at("method").get<std::string>()), progress);
-  record["solvation"] = solvation_of(mesh, molecule, solvation, progress);
 }
 
 }  // namespace smopt::experiments

@@ -4,8 +4,6 @@
 #include <string>
 
 #include "experiments/record.h"
-#include "experiments/solvation_run.h"
-#include "experiments/surface_stage.h"
 #include "smopt/improve/method.h"
 #include "smopt/mesh/triangle_mesh.h"
 #include "smopt/progress.h"
@@ -27,20 +25,9 @@ JudgedMesh prepare_input(const TriangleMesh& initial);
 /// Runs what fills a record and marks it with what became of that: done, or the reason in what was thrown. \throws Cancelled alone.
 void record_outcome(Json& record, const std::function<void()>& fill);
 
-/// Fills the record of the mesh as it was generated: its metrics (before and after are the same).
-void run_initial_case(Json& record, const JudgedMesh& initial, const GeneratedSurface& surface);
-
-/// How many vertices a method's result has. \throws whatever the method throws.
-std::size_t vertices_after(const Method& method, const OptionValues& options, const TriangleMesh& initial,
-                           const ProgressCallback& progress);
-
 /// Runs a method, `repeats` times on one thread from the initial mesh on (validity and cavities are timed too), judges
 /// the result, and fills the record as far as it gets. \return the improved mesh. \throws whatever the method throws.
 TriangleMesh run_method_case(Json& record, const Method& method, const OptionValues& options, const TriangleMesh& initial,
                              const JudgedMesh& input, int repeats, const ProgressCallback& progress);
-
-/// What is asked of the finished mesh, whichever case it is of: `tetgen` and `solvation` of the record. \throws Cancelled
-void add_simulations(Json& record, const TriangleMesh& mesh, const Molecule& molecule, const SolvationPlan& solvation,
-                     const ProgressCallback& progress);
 
 }  // namespace smopt::experiments

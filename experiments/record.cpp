@@ -58,16 +58,6 @@ Json record_header(const Dataset& dataset, const MethodCase& method_case) {
   return record;
 }
 
-void add_surface(Json& record, const GeneratedSurface& surface) {
-  record["molecule"]["atoms"] = surface.molecule.atom_count();
-  record["molecule"]["sha256"] = surface.molecule_sha256;
-  record["surface"]["report"] = {{"grid_nodes", surface.report.grid_nodes},
-                                 {"surface_cells", surface.report.surface_cells},
-                                 {"ambiguous_cells", surface.report.ambiguous_cells},
-                                 {"tunnel_cells", surface.report.tunnel_cells},
-                                 {"interior_vertices", surface.report.interior_vertices}};
-}
-
 void mark_done(Json& record) {
   record["status"] = "done";
   record["reason"] = nullptr;

@@ -8,7 +8,6 @@
 
 #include "experiments/datasets.h"
 #include "experiments/method_cases.h"
-#include "experiments/surface_stage.h"
 #include "smopt/timing.h"
 
 namespace smopt::experiments {
@@ -26,9 +25,6 @@ std::string method_title(std::string_view method);
 Json record_header(const Dataset& dataset, const MethodCase& method_case);
 /// Of the case of this name.
 Json record_header(const Dataset& dataset, std::string_view method);
-
-/// What is known once the surface is there: atoms, the digest of the molecule's file, the generator's report.
-void add_surface(Json& record, const GeneratedSurface& surface);
 
 void mark_done(Json& record);
 void mark_failed(Json& record, std::string_view reason);

@@ -38,7 +38,7 @@ std::optional<std::size_t> paper_pairs(const Dataset& dataset) {
 }
 
 Iso2meshMoleculeStudy study_molecule(const Dataset& dataset, const Iso2meshGrid& grid) {
-  TriangleMesh mesh = generate_surface(dataset, 1, {}).mesh;
+  TriangleMesh mesh = generate_surface(dataset, {}).mesh;
   prepare(mesh, CavityPolicy::delete_cavities);
   TriangleMesh improved = mesh;
   const Method& smopt = baselines::all_methods().find("smopt");

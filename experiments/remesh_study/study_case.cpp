@@ -8,6 +8,7 @@
 
 #include "experiments/record_set.h"
 #include "experiments/remesh_study/worst_places.h"
+#include "experiments/solvation_run.h"
 #include "experiments/tetgen_run.h"
 #include "metrics/dihedral.h"
 #include "metrics/distance.h"

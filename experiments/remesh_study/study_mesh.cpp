@@ -60,7 +60,7 @@ TriangleMesh copies_of(const TriangleMesh& mesh, int copies) {
 }  // namespace
 
 StudyMesh study_mesh_of(const Dataset& dataset) {
-  GeneratedSurface surface = generate_surface(dataset, 1, {});
+  GeneratedSurface surface = generate_surface(dataset, {});
   StudyMesh result;
   result.dataset = dataset;
   result.input = prepare_input(surface.mesh);
@@ -80,7 +80,7 @@ StudyMesh study_mesh_of(const std::string& name, const fs::path& file, TriangleM
 }
 
 StudyMesh study_copies_of(const Dataset& dataset, std::size_t vertices) {
-  const TriangleMesh one = generate_surface(dataset, 1, {}).mesh;
+  const TriangleMesh one = generate_surface(dataset, {}).mesh;
   TriangleMesh prepared = one;
   prepare(prepared, CavityPolicy::delete_cavities);
   const double ratio = static_cast<double>(vertices) / static_cast<double>(prepared.vertex_count());
