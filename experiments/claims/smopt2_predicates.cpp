@@ -4,7 +4,7 @@
 
 #include "experiments/claims/predicates.h"
 #include "experiments/method_cases.h"
-#include "experiments/tetgen_run.h"
+#include "experiments/tetgen_trials.h"
 
 namespace smopt::experiments {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "experiments/level_set_run.h"
 #include "experiments/record_set.h"
-#include "experiments/tetgen_run.h"
+#include "experiments/tetgen_trials.h"
 
 namespace smopt::experiments {
 namespace {

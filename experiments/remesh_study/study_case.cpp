@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "experiments/record_set.h"
+#include "experiments/remesh_study/simulations.h"
 #include "experiments/remesh_study/worst_places.h"
-#include "experiments/solvation_run.h"
-#include "experiments/tetgen_run.h"
+#include "experiments/solvation_plan.h"
 #include "metrics/dihedral.h"
 #include "metrics/distance.h"
 #include "metrics/vertex_spacing.h"
@@ -76,21 +76,20 @@ void add_geometry(Json& record, const StudyMesh& study, const TriangleMesh& mesh
 }
 
 std::vector<TetgenTrial> trials_of(const StudyPlan& plan) {
-  std::vector<TetgenTrial> trials = tetgen_trials(plan.with_quality_tetrahedra ? kSmopt2 : "");
-  return trials;
+  return tetgen_trials(plan.with_quality_tetrahedra ? kSmopt2 : "");
 }
 
-SolvationPlan solvation_plan_of(const StudyMesh& study, const TriangleMesh& mesh, const StudyPlan& plan) {
-  if (!plan.with_solvation) return {"not asked for", 0};
-  if (!study.molecule) return {"no molecule", 0};
+Json solvation_in(const StudyMesh& study, const TriangleMesh& mesh, const StudyPlan& plan) {
+  if (!plan.with_solvation) return no_solvation("not asked for");
+  if (!study.molecule) return no_solvation("no molecule");
   if (std::max(mesh.vertex_count(), study.input.mesh.vertex_count()) > plan.most_solved_vertices)
-    return {fmt::format("more than {} vertices", plan.most_solved_vertices), 0};
-  return {"", SolvationSettings().max_memory_bytes};
+    return no_solvation(fmt::format("more than {} vertices", plan.most_solved_vertices));
+  return solvation_of(mesh, *study.molecule, SolvationSettings().max_memory_bytes);
 }
 
 void add_uses(Json& record, const StudyMesh& study, const TriangleMesh& mesh, const StudyPlan& plan) {
-  if (plan.with_tetrahedra) record["tetgen"] = tetgen_of(mesh, trials_of(plan), {});
-  record["solvation"] = solvation_of(mesh, study.molecule.value_or(Molecule()), solvation_plan_of(study, mesh, plan), {});
+  if (plan.with_tetrahedra) record["tetgen"] = tetgen_of(mesh, trials_of(plan));
+  record["solvation"] = solvation_in(study, mesh, plan);
 }
 
 /// As `run_method_case` times it: from the initial mesh on.

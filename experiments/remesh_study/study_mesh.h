@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "experiments/case_run.h"
 #include "experiments/datasets.h"
 #include "experiments/level_set_run.h"
+#include "experiments/remesh_study/case_run.h"
 #include "smopt/io/molecule.h"
 #include "smopt/mesh/triangle_mesh.h"
 

@@ -6,7 +6,7 @@
 
 #include "baselines/baselines.h"
 #include "experiments/run_layout.h"
-#include "experiments/tetgen_run.h"
+#include "experiments/tetgen_trials.h"
 #include "smopt/error.h"
 #include "smopt/io/file.h"
 
@@ -29,6 +29,11 @@ constexpr MemoryUse kSolveMemory{300, 90};   // a million vertices: 3.7 GB
 
 /// How long steps take beside each other on one molecule, roughly: for the time left alone.
 constexpr double kShortWeight = 1, kImproveWeight = 4, kMeasureWeight = 4, kTetgenWeight = 10, kQualityWeight = 40, kSolveWeight = 40;
+
+/// A PDB file ($0), unpacked ($1), becomes a molecule with charges and radii ($2), without crystal water.
+constexpr const char* kPrepare =
+    R"(command -v pdb2pqr > /dev/null || { echo "not installed: pdb2pqr, which prepares PDB files" >&2; exit 1; }
+gzip -cdf "$0" > "$1" && pdb2pqr --ff=AMBER --nodebump --noopt --drop-water "$1" "$2.beside" && mv "$2.beside" "$2")";
 
 /// The steps of one molecule.
 class MoleculePlanner {
@@ -83,20 +88,14 @@ class MoleculePlanner {
 
   [[nodiscard]] bool has_molecule() const { return !dataset_.path.empty(); }
 
-  /// A PDB file becomes a molecule with charges and radii, without crystal water; all others are read as they are.
+  /// A PDB file is prepared where its entry says so; all others are read as they are.
   void add_molecule() {
     molecule_ = dataset_.path.empty() ? "" : fs::absolute(dataset_.path).string();
     if (!dataset_.is_prepared_by_pdb2pqr) return;
     Step prepare = step("molecule", "prepare", "", kLightMemory, kImproveWeight);
     const std::string unpacked = fmt::format("steps/{}/molecule.{}", dataset_.name, format_ending(dataset_.path));
     const std::string pqr = fmt::format("steps/{}/molecule.pqr", dataset_.name);
-    prepare.command = {
-        "/bin/sh",
-        "-c",
-        R"(gzip -cdf "$0" > "$1" && pdb2pqr --ff=AMBER --nodebump --noopt --drop-water "$1" "$2.beside" && mv "$2.beside" "$2")",
-        molecule_,
-        unpacked,
-        pqr};
+    prepare.command = {"/bin/sh", "-c", kPrepare, molecule_, unpacked, pqr};
     prepare.inputs = {molecule_};
     prepare.outputs = {pqr};
     molecule_ = pqr;
@@ -226,7 +225,7 @@ class MoleculePlanner {
     const std::string& subject = planned.method_case.name;
     for (const TetgenTrial& trial : tetgen_trials(subject))
       planned.tetrahedralize[trial.switches] = add_tetrahedralize(subject, made_by, trial);
-    planned.why_no_solvation = has_molecule() ? solvation_plan(dataset_, subject, options_.solvation).why_not : "no molecule";
+    planned.why_no_solvation = why_no_solvation(dataset_, subject, options_.solvation);
     if (planned.why_no_solvation.empty()) planned.solvate = add_solvate(subject, made_by);
   }
 

@@ -10,7 +10,7 @@
 #include "experiments/datasets.h"
 #include "experiments/method_cases.h"
 #include "experiments/run/step.h"
-#include "experiments/solvation_run.h"
+#include "experiments/solvation_plan.h"
 
 namespace smopt::experiments {
 
@@ -30,8 +30,8 @@ struct CasePlan {
   Dataset dataset;
   MethodCase method_case;
   std::string generate, improve, measure;
-  std::string input, measure_input;  ///< of the mesh without cavities
-  std::string matched;               ///< of the case that the number of vertices is taken from
+  std::string input, measure_input;                   ///< of the mesh without cavities
+  std::string matched;                                ///< of the case that the number of vertices is taken from
   std::map<std::string, std::string> tetrahedralize;  ///< by TetGen's switches
   std::string solvate;
   std::string why_no_solvation;  ///< in words, where there is no `solvate`

@@ -8,7 +8,7 @@
 #include "experiments/level_set_run.h"
 #include "experiments/method_cases.h"
 #include "experiments/tables/molecule_table.h"
-#include "experiments/tetgen_run.h"
+#include "experiments/tetgen_trials.h"
 
 namespace smopt::experiments {
 namespace {

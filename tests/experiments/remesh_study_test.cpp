@@ -7,6 +7,7 @@
 
 #include "experiments/record_set.h"
 #include "experiments/remesh_study/goals.h"
+#include "experiments/remesh_study/simulations.h"
 #include "experiments/remesh_study/study_case.h"
 #include "experiments/remesh_study/worst_places.h"
 #include "metrics/dihedral.h"
@@ -584,6 +585,23 @@ TEST(RemeshStudyPage, TheJsonHasTheRecordsWithoutWhatIsLong) {
   EXPECT_EQ(json.at("compared")[0].at("metrics").at("after").at("vertices"), 400);
   EXPECT_EQ(json.at("candidates")[1].at("left_because"), "not smooth");
   EXPECT_TRUE(json.at("candidates")[0].at("left_because").is_null());
+}
+
+TEST(RemeshStudySimulations, TellEveryOutcomeOfTetgenBySwitches) {
+  const auto outcomes = tetgen_of(testing::icosphere(1), tetgen_trials("smopt2"));
+  for (const char* switches : {"p", "pY", "pq1.4"}) {
+    EXPECT_EQ(outcomes.at(switches).at("status"), "success") << switches;
+    EXPECT_EQ(outcomes.at(switches).at("switches"), switches);
+  }
+}
+
+TEST(RemeshStudySimulations, DoNotRefineWhatCannotBeFilled) {
+  // Two tetrahedra through each other.
+  const auto crossing = testing::joined(testing::tetrahedron(), testing::translated(testing::tetrahedron(), {0.3, 0.2, 0.1}));
+  const auto outcomes = tetgen_of(crossing, tetgen_trials("smopt2"));
+  EXPECT_EQ(outcomes.at("p").at("status"), "failed");
+  EXPECT_EQ(outcomes.at("pq1.4").at("status"), "failed");
+  EXPECT_THAT(outcomes.at("pq1.4").at("reason").get<std::string>(), HasSubstr("not tried"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "experiments/case_run.h"
+#include "experiments/remesh_study/case_run.h"
 
 #include <oneapi/tbb/task_arena.h>
 

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "smopt/mesh/triangle_mesh.h"
-#include "smopt/progress.h"
 
 namespace smopt::experiments {
 
@@ -23,9 +19,5 @@ inline constexpr const char* kQualitySwitches = "pq1.4";
 /// `p` and `pY` of every case; tetrahedra of bounded shape, too, of smopt's mesh and smopt2's (initial meshes would take all of the time: that of
 /// the AChE monomer has not ended after five minutes).
 std::vector<TetgenTrial> tetgen_trials(std::string_view method);
-
-/// A record's `tetgen`: by switches what `smopt tetrahedralize --json` prints, whatever becomes of it. Where `p` fails, nothing else that
-/// refines its result is tried, and the reason says so. \throws Cancelled
-nlohmann::ordered_json tetgen_of(const TriangleMesh& mesh, const std::vector<TetgenTrial>& trials, const ProgressCallback& progress);
 
 }  // namespace smopt::experiments
