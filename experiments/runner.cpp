@@ -106,11 +106,13 @@ std::vector<GraphNode> nodes_of(const RunPlan& plan, const fs::path& directory) 
 class Run {
  public:
   Run(const RunOptions& options, const RunPlan& plan, const RunObserver& observer)
-      : options_(options), plan_(plan), observer_(observer), place_(step_place(options.directory, options.program)), work_(plan) {}
+      : options_(options), plan_(plan), observer_(observer), place_(step_place(options.directory, options.program)), work_(plan) {
+    place_.threads = options.jobs;
+  }
 
   RunSummary go() {
     run_graph(
-        nodes_of(plan_, place_.directory), machine_for(options_), [this](std::size_t step) { run(step); },
+        nodes_of(plan_, place_.directory), machine_for(options_), [this](std::size_t step) { run_or_end_all(step); },
         [this](const std::vector<std::size_t>& running) { look(running); });
     for (const CasePlan& planned : plan_.cases) summary_.cases.push_back(outcomes_.at(planned.record));
     summary_.seconds = work_.seconds();
@@ -118,7 +120,12 @@ class Run {
   }
 
  private:
-  /// In a thread of its own.
+  /// In a thread of its own. What this run itself cannot do (a full disk, say) ends the steps beside it, too.
+  void run_or_end_all(std::size_t index) try { run(index); } catch (...) {
+    is_cancelled_ = true;
+    throw;
+  }
+
   void run(std::size_t index) {
     const Step& step = plan_.steps[index];
     if (step.command.empty()) {
@@ -202,10 +209,12 @@ RunSummary run_cases(const RunOptions& options, const RunObserver& observer) {
   return Run(options, plan, observer).go();
 }
 
-std::string run_planned_step(const fs::path& plan_file, const std::string& id, const fs::path& program, const ProgressCallback& progress) {
+std::string run_planned_step(const PlannedStep& planned, const ProgressCallback& progress) {
+  const fs::path& plan_file = planned.plan_file;
   const RunPlan plan = parse_plan(read_file(plan_file), plan_file.string());
-  const Step& step = plan.step(id);
-  const StepPlace place = step_place(plan_file.has_parent_path() ? plan_file.parent_path() : ".", program);
+  const Step& step = plan.step(planned.id);
+  StepPlace place = step_place(plan_file.has_parent_path() ? plan_file.parent_path() : ".", planned.program);
+  place.threads = planned.threads;
   if (!step.command.empty()) return run_step(step, place, progress).status;
   const Json record = assemble_record(plan.recorded_by(step), plan, place.directory);
   write_record(place.directory, record);

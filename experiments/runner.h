@@ -20,7 +20,7 @@ struct RunOptions : PlanOptions {
   bool resumes = false;             ///< what was done in `directory` before, by the same program of the same files, is not done again
   bool retries = false;             ///< with `resumes`: but what failed is
   std::filesystem::path program;    ///< that does the steps; empty: the one that runs this
-  int jobs = 0;                     ///< steps at a time, at most; 0: as many as there are cores
+  int jobs = 0;                     ///< cores that steps share, each a thread's; 0: all there are
   std::uint64_t memory_bytes = 0;   ///< that steps together may take, by estimate; 0: two thirds of the machine's
 };
 
@@ -58,9 +58,16 @@ struct RunSummary {
 /// another run is at work in the folder; Cancelled.
 RunSummary run_cases(const RunOptions& options, const RunObserver& observer = {});
 
-/// Does one step of a plan, or one record. \param program  as in RunOptions. \return its status. \throws as `run_cases`.
-std::string run_planned_step(const std::filesystem::path& plan_file, const std::string& id, const std::filesystem::path& program,
-                             const ProgressCallback& progress);
+/// One step of a plan that another program drives.
+struct PlannedStep {
+  std::filesystem::path plan_file;
+  std::string id;
+  std::filesystem::path program;  ///< as in RunOptions
+  int threads = 0;                ///< that a step which could use all may use; 0: all
+};
+
+/// Does one step of a plan, or one record. \return its status. \throws as `run_cases`.
+std::string run_planned_step(const PlannedStep& planned, const ProgressCallback& progress);
 
 /// Writes `directory`/plan.json for other programs that run the steps. \return the plan.
 RunPlan write_plan(const RunOptions& options);

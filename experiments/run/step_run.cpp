@@ -1,9 +1,9 @@
 #include "experiments/run/step_run.h"
 
 #include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
 
-#include <array>
-#include <cmath>
 #include <cstring>
 
 #include "experiments/machine.h"
@@ -23,9 +23,12 @@ constexpr const char* kDone = "done";
 constexpr const char* kFailed = "failed";
 constexpr const char* kNotInstalledStatus = "not installed";
 
+/// What is run: the number of threads is no part of the command, as no result depends on it.
 std::vector<std::string> command_line(const Step& step, const StepPlace& place) {
   std::vector<std::string> command = step.command;
   if (command.front() == kThisProgram) command.front() = place.program.string();
+  if (step.needs.threads == kAllThreads && place.threads > 0)
+    command.insert(command.end(), {"--threads", fmt::format("{}", place.threads)});
   return command;
 }
 
@@ -83,6 +86,12 @@ StepOutcome judge(const Step& step, const ProcessOutcome& ended, const fs::path&
   return {kFailed, failure};
 }
 
+/// Whether somebody asked it to end, such as a batch system that stops the whole run: that says nothing of the step.
+bool was_interrupted(const ProcessOutcome& ended) {
+  constexpr int kInterrupted = 130;  // this program's exit status, and a shell's
+  return ended.exit_status == kInterrupted || ended.signal == SIGTERM || ended.signal == SIGINT;
+}
+
 Json digests_of(const Step& step, const fs::path& directory) {
   Json digests = Json::object();
   for (const std::string& file : step.outputs) digests[file] = sha256_of_file(in_run(directory, file));
@@ -129,7 +138,7 @@ StepOutcome run_command(const Step& step, const StepPlace& place, const Progress
   const ProcessOutcome ended = run_process(command_line(step, place), limits, step.rule.c_str(), progress, surroundings);
   StepOutcome outcome = judge(step, ended, place.directory);
   Json stamp = stamp_of(step, outcome);
-  stamp["key"] = key;
+  if (!was_interrupted(ended)) stamp["key"] = key;  // without it, it is done again
   stamp["sha256"] = outcome.status == kDone ? digests_of(step, place.directory) : Json::object();
   stamp["version"] = version();
   stamp["program_sha256"] = place.program_sha256;
@@ -147,11 +156,10 @@ bool are_as_left(const Step& step, const Json& stamp, const fs::path& directory)
 }  // namespace
 
 StepPlace step_place(const fs::path& directory, const fs::path& program) {
-  std::error_code error;
   StepPlace place;
   place.directory = fs::absolute(directory);
-  place.program = program.empty() ? fs::read_symlink("/proc/self/exe", error) : fs::absolute(program);
-  if (error) throw InvalidInput(fmt::format("/proc/self/exe: {}", error.message()));
+  // This very program, even when a new one is built in its place meanwhile.
+  place.program = program.empty() ? fs::path(fmt::format("/proc/{}/exe", getpid())) : fs::absolute(program);
   place.program_sha256 = sha256_of_file(place.program);
   return place;
 }

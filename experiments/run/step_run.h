@@ -15,6 +15,7 @@ struct StepPlace {
   std::filesystem::path directory;  ///< the run's
   std::filesystem::path program;    ///< what kThisProgram stands for
   std::string program_sha256;       ///< of that file: another program's results are not taken for this one's
+  int threads = 0;                  ///< that a step which could use all may use; 0: all
 };
 
 /// \param program  empty: the program that runs this. \throws InvalidInput when there is none.
@@ -32,7 +33,8 @@ std::string step_key(const Step& step, const StepPlace& place);
 
 /// Runs the command in a process of its own and writes the stamp: `key`, `status`, `reason`, `command`, the `sha256` of the outputs, how it ended,
 /// `seconds`, `cpu_seconds`, `peak_memory_mb`, and the `machine`. A command that fails, crashes, or runs out of time or memory is an outcome with its
-/// reason; so is a step whose predecessors did not end well. A stamp is there only when all is done: whoever is killed leaves none.
+/// reason; so is a step whose predecessors did not end well. A stamp is there only when all is done: whoever is killed leaves none, and that of a command
+/// that was asked to end (SIGTERM, SIGINT) has no `key`, so that it is done again.
 /// \throws Cancelled; InvalidInput when nothing can be written.
 StepOutcome run_step(const Step& step, const StepPlace& place, const ProgressCallback& progress);
 

@@ -9,24 +9,23 @@
 namespace smopt::cli {
 
 void add_step(CLI::App& app, Context& context) {
-  struct Arguments {
-    std::string plan, id;
-  };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto planned = std::make_shared<experiments::PlannedStep>();
   CLI::App* command = app.add_subcommand("step", "Do one step of a plan that `reproduce --plan` made (for workflow programs)");
   command->footer(
       "Runs the step's command in a process of its own, with its limits on time and memory, and writes what became of it beside its files; "
       "a\n"
       "step that fails is an answer, not an error. Steps are to be done after those that their `after` in plan.json names.\n"
+      "With --threads a step that could use all cores uses that many.\n"
       "\n"
       "Example:\n"
       "  smopt step results/run/plan.json fas2/smopt.improve");
-  command->add_option("plan", arguments->plan, "the run's plan.json; its folder is the run's")->required();
-  command->add_option("id", arguments->id, "the step's")->required();
-  command->callback([arguments, &context] {
+  command->add_option("plan", planned->plan_file, "the run's plan.json; its folder is the run's")->required();
+  command->add_option("id", planned->id, "the step's")->required();
+  command->callback([planned, &context] {
     ProgressBar bar(context.is_quiet);
-    const std::string status = experiments::run_planned_step(arguments->plan, arguments->id, {}, bar.callback());
-    if (!context.is_quiet) fmt::print("{}: {}\n", arguments->id, status);
+    planned->threads = context.threads;
+    const std::string status = experiments::run_planned_step(*planned, bar.callback());
+    if (!context.is_quiet) fmt::print("{}: {}\n", planned->id, status);
   });
 }
 

@@ -344,11 +344,14 @@ TEST(Runner, AStepAtATimeGivesTheSameRecordsAsTheRun) {
   planned.directory = folder.path() / "planned";
   const RunPlan plan = write_plan(planned);
   EXPECT_FALSE(fs::exists(planned.directory / "steps"));
-  for (const Step& step : plan.steps) run_planned_step(planned.directory / "plan.json", step.id, planned.program, {});
+  for (const Step& step : plan.steps) run_planned_step({planned.directory / "plan.json", step.id, planned.program}, {});
   for (const char* method : {"initial", "smopt", "iso2mesh"})
     EXPECT_EQ(without_times(record_of(planned, "tiny", method)).dump(), without_times(record_of(options, "tiny", method)).dump()) << method;
-  EXPECT_THAT([&] { run_planned_step(planned.directory / "plan.json", "tiny/none.improve", planned.program, {}); },
-              Throws<InvalidOption>());
+  EXPECT_THAT(
+      [&] {
+        run_planned_step({planned.directory / "plan.json", "tiny/none.improve", planned.program}, {});
+      },
+      Throws<InvalidOption>());
 }
 
 TEST(Runner, TellsEachCaseAsItEndsAndHowFarItIs) {
@@ -427,8 +430,10 @@ TEST(Reproduce, ChoosesMoleculesByNameSuiteAndFolder) {
   EXPECT_THAT(chosen(options), ::testing::Not(Contains("mine")));
   options.data = folder.path();
   EXPECT_THAT(chosen(options), AllOf(Contains("mine"), Contains("ache-monomer")));
+  EXPECT_THAT(left_out_of_folder(options), ::testing::IsEmpty());
   options.is_quick = true;
-  EXPECT_THAT(chosen(options), ::testing::UnorderedElementsAre("fas2", "1a63"));
+  EXPECT_THAT(chosen(options), ::testing::UnorderedElementsAre("fas2", "1a63", "hca-coarse"));
+  EXPECT_THAT(left_out_of_folder(options), ::testing::ElementsAre("mine"));
   options = {};
   options.molecules = {"fas2"};
   EXPECT_THAT(chosen(options), ::testing::ElementsAre("fas2"));
@@ -442,6 +447,8 @@ TEST(Reproduce, OverridesAnOptionOfOneCase) {
   const RunOptions run = run_options(options);
   EXPECT_EQ(run.cases[1].options.at("guard"), "none");
   EXPECT_EQ(run.cases[2].options.at("rounds"), "5");
+  EXPECT_EQ(run.cases[0].title, find_method_case("initial").title);
+  EXPECT_EQ(run.cases[1].title, "SMOPT (guard=none)");
   for (const char* wrong : {"smopt", "smopt:guard", "guard=none", "laplacian:rounds=1"}) {
     options.overrides = {wrong};
     EXPECT_THAT([&] { run_options(options); }, Throws<InvalidOption>()) << wrong;

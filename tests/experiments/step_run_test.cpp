@@ -110,6 +110,36 @@ TEST_F(StepRun, IsDoneAlreadyOnlyWithTheSameCommandInputsProgramAndOutputs) {
   EXPECT_FALSE(is_done_already(step)) << "the output is gone";
 }
 
+TEST_F(StepRun, WhatWasAskedToEndIsDoneAgain) {
+  for (const char* line : {"kill -TERM $$", "exit 130"}) {
+    const Step step = shell(line);
+    EXPECT_EQ(run(step).status, "failed") << line;
+    EXPECT_FALSE(is_done_already(step)) << line;
+  }
+  const Step failed = shell("exit 7");
+  run(failed);
+  EXPECT_TRUE(is_done_already(failed)) << "a failure of its own is remembered";
+}
+
+TEST_F(StepRun, OnlyAStepThatCouldUseAllThreadsIsToldHowManyThereAre) {
+  place_.threads = 3;
+  Step step = shell("echo \"$@\" > out");
+  run(step);
+  EXPECT_EQ(bytes_of(folder_.path() / "out"), "\n");
+  step.needs.threads = kAllThreads;
+  step.command.emplace_back("name");
+  run(step);
+  EXPECT_EQ(bytes_of(folder_.path() / "out"), "--threads 3\n");
+  place_.threads = 2;
+  EXPECT_TRUE(is_done_already(step)) << "the result does not depend on it";
+}
+
+TEST_F(StepRun, RunsTheVeryProgramThatRunsIt) {
+  const StepPlace own = step_place(folder_.path(), {});
+  EXPECT_TRUE(std::filesystem::equivalent(own.program, "/proc/self/exe"));
+  EXPECT_EQ(own.program_sha256, sha256_of_file("/proc/self/exe"));
+}
+
 TEST_F(StepRun, AnotherProgramsResultsAreNotTaken) {
   Step step = shell("cat in > out");
   step.command = {kThisProgram, "-c", "cat in > out"};

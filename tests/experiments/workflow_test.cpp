@@ -55,5 +55,30 @@ TEST(Workflow, SnakemakeGivesTheRecordsOfTheProgramsOwnRunner) {
   }
 }
 
+TEST(Workflow, SnakemakeDoesAgainWhatDependsOnAnOptionOrAMoleculeThatHasChanged) {
+  if (!fs::exists(kSnakemake)) GTEST_SKIP() << "Debian's snakemake is not installed";
+  const TemporaryFolder folder;
+  const fs::path data = molecules_in(folder), planned = folder.path() / "planned";
+  const auto run_with = [&](const std::string& flag, const std::string& value) {
+    ASSERT_EQ(run_program(SMOPT_PROGRAM, {"reproduce", "-o", planned.string(), "--data", data.string(), "--molecules", "four", "--methods",
+                                          "initial,smopt", "--repeats", "1", "--plan", flag, value})
+                  .exit_code,
+              0);
+    const ProgramResult ran = run_program(kSnakemake, {"-s", SMOPT_SNAKEFILE, "--directory", planned.string(), "--cores", "2", "--config",
+                                                       std::string("smopt=") + SMOPT_PROGRAM});
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  };
+  const auto record = [&](const char* method) { return Json::parse(bytes_of(record_path(planned, "four", method))); };
+  run_with("--override", "smopt:rounds=3");
+  const std::string initial = bytes_of(record_path(planned, "four", "initial"));
+  EXPECT_EQ(record("smopt").at("options").at("rounds"), 3);
+  run_with("--override", "smopt:rounds=4");
+  EXPECT_EQ(record("smopt").at("options").at("rounds"), 4);
+  EXPECT_EQ(bytes_of(record_path(planned, "four", "initial")), initial) << "which has nothing to do with it";
+  static_cast<void>(folder.file("data/four.pqr", bytes_of(data / "four.pqr") + "ATOM 5 O  ALA 1 3.0 2.6 0.7 -0.5 1.6\n"));
+  run_with("--override", "smopt:rounds=4");
+  EXPECT_EQ(record("initial").at("molecule").at("atoms"), 5);
+}
+
 }  // namespace
 }  // namespace smopt::experiments
