@@ -98,6 +98,13 @@ std::string with_reason(const std::string& text, const std::string& reason) {
   return reason.empty() ? text : fmt::format("{} ({})", text, reason);
 }
 
+/// Whether a limit decided, which says how fast the machine is.
+bool is_limited(const Tolerance& tolerance, const Json& record) {
+  if (tolerance.limited_by.empty()) return false;
+  const std::string reason = reason_beside(record, tolerance.pointer);
+  return std::ranges::any_of(tolerance.limited_by, [&](const std::string& beginning) { return reason.starts_with(beginning); });
+}
+
 /// Compares the records of cases one by one and collects what it finds.
 class Comparer {
  public:
@@ -163,7 +170,8 @@ class Comparer {
   void compare_quantity(const Pair& pair, const Tolerance& tolerance) {
     RecordValue reference = value_of(pair.reference, tolerance), now = value_of(pair.now, tolerance);
     const Standing standing = standing_of(tolerance, reference, now);
-    if (standing == Standing::incomparable) {
+    const bool is_by_a_limit = standing != Standing::within && (is_limited(tolerance, pair.reference) || is_limited(tolerance, pair.now));
+    if (standing == Standing::incomparable || is_by_a_limit) {
       remark_not_compared(pair, tolerance, reference, now);
       return;
     }

@@ -18,9 +18,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 18> kKeys = {"not_asked", "metrics",    "quantity",           "at",       "unit",     "better",
-                                                    "to",        "best_first", "change_from",        "absolute", "relative", "methods",
-                                                    "molecules", "where",      "needs_same_options", "gates",    "why",      "is"};
+constexpr std::array<std::string_view, 19> kKeys = {"not_asked", "metrics", "quantity",   "at",          "unit",
+                                                    "better",    "to",      "best_first", "change_from", "absolute",
+                                                    "relative",  "methods", "molecules",  "where",       "needs_same_options",
+                                                    "gates",     "why",     "is",         "limited_by"};
 
 /// What a machine and its load decide: never a reason to be red.
 constexpr std::array<std::string_view, 3> kNeverGating = {"seconds", "memory", "threads"};
@@ -113,6 +114,7 @@ Tolerance of_other_quantity(Tolerance tolerance, const Json& entry) {
   tolerance.unit = tolerance.change_from.empty() ? entry.value("unit", "1") : "change";
   tolerance.best_first = entry.value("best_first", tolerance.best_first);
   tolerance.not_asked = entry.value("not_asked", tolerance.not_asked);
+  tolerance.limited_by = entry.value("limited_by", tolerance.limited_by);
   if (tolerance.pointer.empty()) throw InvalidInput(fmt::format("{}: at says where it stands in a record", tolerance.quantity));
   tolerance.direction = tolerance.best_first.empty() ? direction_named(entry.at("better")) : Direction::ranked;
   return tolerance;

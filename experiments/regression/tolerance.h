@@ -19,18 +19,19 @@ enum class Direction {
 /// What a quantity of a record may lose against the reference, for some cases. One entry of tolerances.json gives one for each quantity that it
 /// names.
 struct Tolerance {
-  std::string quantity;                           ///< a metric of the judge's registry, or a name of its own
-  std::string pointer;                            ///< where it stands in a record: "/metrics/after/angle_deg/min"
-  std::string unit;                               ///< as in the registry of metrics; "change" for a share of the value at `change_from`
-  Direction direction = Direction::equal;         ///< of a metric: the registry's
-  double target = 0;                              ///< for `nearer`
-  std::vector<std::string> best_first;            ///< for `ranked`
-  std::vector<std::string> not_asked;             ///< words that say that there is nothing to compare
-  std::string change_from;                        ///< the quantity is the relative change from the value there; empty: the value itself
-  double absolute = 0;                            ///< in the quantity's unit
-  double relative = 0;                            ///< of the reference's value
-  std::vector<std::string> methods;               ///< names of cases or of registered methods; empty: all
-  std::vector<std::string> molecules;             ///< empty: all
+  std::string quantity;                    ///< a metric of the judge's registry, or a name of its own
+  std::string pointer;                     ///< where it stands in a record: "/metrics/after/angle_deg/min"
+  std::string unit;                        ///< as in the registry of metrics; "change" for a share of the value at `change_from`
+  Direction direction = Direction::equal;  ///< of a metric: the registry's
+  double target = 0;                       ///< for `nearer`
+  std::vector<std::string> best_first;     ///< for `ranked`
+  std::vector<std::string> not_asked;      ///< words that say that there is nothing to compare
+  std::vector<std::string> limited_by;     ///< beginnings of reasons that tell of the machine and not of the mesh: nothing to compare
+  std::string change_from;                 ///< the quantity is the relative change from the value there; empty: the value itself
+  double absolute = 0;                     ///< in the quantity's unit
+  double relative = 0;                     ///< of the reference's value
+  std::vector<std::string> methods;        ///< names of cases or of registered methods; empty: all
+  std::vector<std::string> molecules;      ///< empty: all
   std::string condition_pointer, condition_text;  ///< compared where both records have this text there; empty: everywhere
   bool needs_same_options = false;                ///< between other options it is shown and never red
   bool gates = true;                              ///< false: shown, never red

@@ -201,6 +201,16 @@ TEST(Regression, WhatWasNotAskedForIsNoRegression) {
   }
 }
 
+TEST(Regression, ALimitSaysHowFastTheMachineIsAndIsNoRegression) {
+  const auto failed_by = [](const char* reason) {
+    return with(full_record(), "/tetgen/pq1.4", {{"status", "failed"}, {"reason", reason}});
+  };
+  const Comparison slow = compared(failed_by("time limit of 300 s exceeded"), full_record());
+  EXPECT_THAT(slow.worse, IsEmpty());
+  EXPECT_THAT(to_text(slow, false), HasSubstr("time limit of 300 s exceeded"));
+  EXPECT_THAT(quantities_of(compared(failed_by("self-intersection (code 3)"), full_record()).worse), ElementsAre("TetGen -pq1.4"));
+}
+
 TEST(Regression, PairsOfAMethodWithoutAGuardHaveATolerance) {
   const Json reference = with(full_record("laplacian"), "/metrics/after/intersecting_pairs", 100);
   EXPECT_THAT(compared(with(reference, "/metrics/after/intersecting_pairs", 140), reference).worse, IsEmpty());
