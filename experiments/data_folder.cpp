@@ -26,13 +26,19 @@ std::string name_of(const fs::path& file) {
   return name.stem().string();
 }
 
-/// Sorted by name; of several files for one thing the first in the order of their names.
+/// PQR has the charges and radii that were chosen for the molecule.
+bool is_pqr(const fs::path& file) {
+  return format_ending(file) == "pqr";
+}
+
+/// Absolute, as steps run elsewhere. Of several files for one thing PQR comes first, then the order of their names.
 std::map<std::string, Found> files_by_name(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) files.push_back(entry->path());
+  for (fs::directory_iterator entry(fs::absolute(folder), error), end; !error && entry != end; entry.increment(error))
+    files.push_back(entry->path());
   if (error) throw InvalidInput(fmt::format("{}: {}", folder.string(), error.message()));
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files, {}, [](const fs::path& file) { return std::pair(!is_pqr(file), file); });
   std::map<std::string, Found> found;
   for (const fs::path& file : files) {
     if (is_readable_molecule_format(file) && found[name_of(file)].molecule.empty()) found[name_of(file)].molecule = file;
@@ -52,6 +58,13 @@ Dataset new_dataset(const std::string& name, const Found& found) {
   return dataset;
 }
 
+/// The user's file is read as it is, whatever would be done to the one that it takes the place of.
+void replace_molecule(Dataset& dataset, const fs::path& file) {
+  dataset.path = file;
+  dataset.package.clear();
+  dataset.is_prepared_by_pdb2pqr = false;
+}
+
 }  // namespace
 
 std::vector<Dataset> with_data_folder(std::span<const Dataset> datasets, const fs::path& folder) {
@@ -61,7 +74,7 @@ std::vector<Dataset> with_data_folder(std::span<const Dataset> datasets, const f
     for (const std::string& name : {name_of(dataset.file), dataset.name}) {
       const auto it = found.find(name);
       if (it == found.end()) continue;
-      if (!it->second.molecule.empty()) dataset.path = it->second.molecule;
+      if (!it->second.molecule.empty()) replace_molecule(dataset, it->second.molecule);
       if (!it->second.mesh.empty()) dataset.mesh = it->second.mesh;
       dataset.is_of_folder = true;
       found.erase(it);
@@ -69,6 +82,10 @@ std::vector<Dataset> with_data_folder(std::span<const Dataset> datasets, const f
   }
   for (const auto& [name, files] : found) all.push_back(new_dataset(name, files));
   return all;
+}
+
+std::vector<Dataset> known_datasets(const fs::path& folder) {
+  return folder.empty() ? all_datasets() : with_data_folder(all_datasets(), folder);
 }
 
 }  // namespace smopt::experiments

@@ -66,8 +66,11 @@ std::vector<Dataset> datasets_of(std::span<const Dataset> datasets, std::string_
 
 /// The datasets with what a folder of the user's has: the files that `datasets` name, and one more dataset for each other molecule (<name>.pqr, …)
 /// or ready mesh (<name>.off, …) in it, each also .gz. A mesh of the same name as a molecule, or as a dataset, takes the place of the generated
-/// surface. New ones have the standard surface and belong to no suite. \throws InvalidInput when the folder cannot be read.
+/// surface; a molecule of the same name as a dataset takes that one's place, as it is. New ones have the standard surface and belong to no suite. \throws InvalidInput when the folder cannot be read.
 std::vector<Dataset> with_data_folder(std::span<const Dataset> datasets, const std::filesystem::path& folder);
+
+/// The molecules of datasets.json, with what the user's folder has where one is named. \throws as `with_data_folder`.
+std::vector<Dataset> known_datasets(const std::filesystem::path& folder);
 
 /// \throws InvalidInput that lists the files of the user's folder that are not known, and how to get them.
 void require_files(std::span<const Dataset> datasets);

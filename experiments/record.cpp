@@ -34,10 +34,6 @@ Json surface_json(const GaussianSurfaceOptions& options) {
 
 }  // namespace
 
-std::string method_title(std::string_view method) {
-  return find_method_case(method).title;
-}
-
 Json record_header(const Dataset& dataset, std::string_view method) {
   return record_header(dataset, find_method_case(method));
 }

@@ -17,9 +17,6 @@ using Json = nlohmann::ordered_json;
 /// Goes up when a key of the records changes its meaning.
 inline constexpr int kRecordSchema = 1;
 
-/// How tables and figures call a case: "SMOPT" for `smopt`.
-std::string method_title(std::string_view method);
-
 /// The part of a record that is known before the case runs: molecule, surface, method, version, machine. Its status is "failed" until
 /// `mark_done`, so that a record is never taken for more than it is. `method` is the case's name, `registered_method` the registry's.
 Json record_header(const Dataset& dataset, const MethodCase& method_case);

@@ -65,6 +65,22 @@ void RecordSet::add(Json record, const std::string& source) {
   records_[*molecule].insert_or_assign(*method, std::move(record));
 }
 
+RecordSet RecordSet::of_molecules(const std::vector<std::string>& names) const {
+  RecordSet some;
+  for (const std::string& name : names) {
+    const auto found = records_.find(name);
+    if (found == records_.end()) throw InvalidInput(fmt::format("no records of a molecule '{}'", name));
+    some.records_.insert(*found);
+  }
+  return some;
+}
+
+std::size_t RecordSet::size() const {
+  std::size_t size = 0;
+  for (const auto& [name, methods] : records_) size += methods.size();
+  return size;
+}
+
 std::vector<std::string> RecordSet::molecules() const {
   std::set<std::string> names;
   for (const auto& [name, methods] : records_) names.insert(name);
@@ -97,6 +113,12 @@ std::vector<std::string> paper_methods(const RecordSet& records) {
   std::vector<std::string> methods = records.methods();
   std::erase_if(methods, [](const std::string& name) { return name != kInitial && !find_method_case(name).is_in_paper_tables; });
   return methods;
+}
+
+std::string method_title(const RecordSet& records, std::string_view method) {
+  for (const std::string& molecule : records.molecules())
+    if (const auto title = text_at(records.find(molecule, method), "/method_title")) return *title;
+  return find_method_case(method).title;
 }
 
 bool is_done(const nlohmann::ordered_json* record) {

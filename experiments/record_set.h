@@ -22,6 +22,11 @@ class RecordSet {
   /// Adds a record, in place of one of the same case. \throws InvalidInput naming `source` when it is none.
   void add(Json record, const std::string& source);
 
+  /// The records of these molecules. \throws InvalidInput when there is none of one of them.
+  [[nodiscard]] RecordSet of_molecules(const std::vector<std::string>& names) const;
+
+  [[nodiscard]] std::size_t size() const;
+
   /// Names in the order in which tables and figures show them: molecules as in datasets.json, then by name; methods: initial, as in
   /// methods.json, then by name.
   [[nodiscard]] std::vector<std::string> molecules() const;
@@ -39,6 +44,9 @@ class RecordSet {
 /// The methods of the records that belong beside the paper's in its tables and figures: the initial mesh, and the cases that methods.json
 /// says so of.
 std::vector<std::string> paper_methods(const RecordSet& records);
+
+/// How tables and figures call a case, "SMOPT" for `smopt`: as its records say, or methods.json where there is none.
+std::string method_title(const RecordSet& records, std::string_view method);
 
 /// Whether there is a record and its case ended well.
 bool is_done(const nlohmann::ordered_json* record);

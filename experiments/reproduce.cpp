@@ -4,14 +4,11 @@
 
 #include <algorithm>
 
+#include "experiments/record_set.h"
 #include "smopt/error.h"
 
 namespace smopt::experiments {
 namespace {
-
-std::vector<Dataset> known_datasets(const ReproduceOptions& options) {
-  return options.data.empty() ? all_datasets() : with_data_folder(all_datasets(), options.data);
-}
 
 std::vector<std::string> chosen_suites(const ReproduceOptions& options) {
   if (!options.suites.empty()) return options.suites;
@@ -21,7 +18,7 @@ std::vector<std::string> chosen_suites(const ReproduceOptions& options) {
 }
 
 std::vector<Dataset> chosen_datasets(const ReproduceOptions& options) {
-  const std::vector<Dataset> known = known_datasets(options);
+  const std::vector<Dataset> known = known_datasets(options.data);
   if (!options.molecules.empty()) return find_datasets(known, options.molecules);
   const bool adds_folder = options.suites.empty() && !options.is_quick && !options.is_full;
   const std::vector<std::string> suites = chosen_suites(options);
@@ -45,6 +42,7 @@ void apply_override(std::vector<MethodCase>& cases, const std::string& text) {
   const auto found = std::ranges::find(cases, text.substr(0, colon), &MethodCase::name);
   if (found == cases.end()) throw InvalidOption(fmt::format("--override {}: no such method in this run", text));
   found->options[text.substr(colon + 1, equals - colon - 1)] = text.substr(equals + 1);
+  found->title += fmt::format(" ({})", text.substr(colon + 1));  // tables and figures are not to pass it for the case as it is known
 }
 
 std::vector<MethodCase> chosen_cases(const ReproduceOptions& options) {
@@ -66,13 +64,23 @@ RunOptions run_options(const ReproduceOptions& options) {
   return run;
 }
 
+std::vector<std::string> left_out_of_folder(const ReproduceOptions& options) {
+  const std::vector<Dataset> chosen = chosen_datasets(options);
+  std::vector<std::string> names;
+  for (const Dataset& dataset : known_datasets(options.data))
+    if (dataset.is_of_folder && dataset.suites.empty() && std::ranges::find(chosen, dataset.name, &Dataset::name) == chosen.end())
+      names.push_back(dataset.name);
+  return names;
+}
+
 ReproduceSummary reproduce(const ReproduceOptions& options, const RunObserver& observer) {
   const RunOptions run = run_options(options);
   if (options.is_plan_only) {
     write_plan(run);
     return {};
   }
-  ReproduceSummary summary{run_cases(run, observer), {}};
+  ReproduceSummary summary{run_cases(run, observer), {}, 0};
+  summary.earlier_cases = RecordSet::load(options.directory).size() - summary.cases.size();
   summary.report = write_report(options.directory, observer.progress);
   return summary;
 }

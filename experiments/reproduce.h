@@ -26,11 +26,15 @@ struct ReproduceOptions {
 
 struct ReproduceSummary : RunSummary {
   ReportOutcome report;
+  std::size_t earlier_cases = 0;  ///< of earlier runs in the folder, which the tables and figures show as well
 };
 
 /// The molecules, by name, suite and folder, and the cases, with what is overridden. \throws InvalidOption for an unknown name; InvalidInput for a
 /// folder that cannot be read.
 RunOptions run_options(const ReproduceOptions& options);
+
+/// The molecules of the user's folder that are neither chosen nor known, by name: somebody may miss them. \throws as `run_options`.
+std::vector<std::string> left_out_of_folder(const ReproduceOptions& options);
 
 /// Runs the experiments over the datasets and writes `directory`/records, tables and figures.
 /// \throws InvalidOption for an unknown name; InvalidInput when something cannot be written or Python's matplotlib is missing (the records

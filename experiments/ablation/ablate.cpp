@@ -27,7 +27,7 @@ RecordSet load_records(const RunOptions& run) {
 /// Every case of the designs on every molecule; no simulation is asked for.
 RunOptions run_options(const AblateOptions& options, const AblationPlan& plan, const ChosenDesigns& designs) {
   RunOptions run = options.run;
-  run.datasets = find_datasets(all_datasets(), options.molecules.empty() ? plan.molecules : options.molecules);
+  run.datasets = find_datasets(known_datasets(options.data), options.molecules.empty() ? plan.molecules : options.molecules);
   for (const DesignCase& c : chosen_cases(plan, designs)) run.cases.push_back(c.method_case);
   run.directory = options.directory;
   run.simulates = false;

@@ -14,6 +14,7 @@ namespace smopt::experiments {
 struct AblateOptions {
   std::filesystem::path directory = "results/ablation";  ///< where records, tables, figures and the page go
   std::vector<std::string> molecules;                    ///< names of datasets; empty: those of ablation.json
+  std::filesystem::path data;                            ///< a folder of the user's molecules and meshes; empty: none
   std::string design = "all";                            ///< see `chosen_designs`
   bool is_quick = false;                                 ///< the quick designs of ablation.json, one repeat
   RunOptions run;                                        ///< how it is run; what the others say is filled in

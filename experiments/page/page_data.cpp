@@ -60,7 +60,7 @@ Json methods_json(const RecordSet& records) {
   const std::vector<std::string> in_paper = paper_methods(records);
   Json result = Json::array();
   for (const std::string& name : records.methods())
-    result.push_back({{"name", name}, {"title", method_title(name)}, {"in_paper", std::ranges::count(in_paper, name) > 0}});
+    result.push_back({{"name", name}, {"title", method_title(records, name)}, {"in_paper", std::ranges::count(in_paper, name) > 0}});
   return result;
 }
 

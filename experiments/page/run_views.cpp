@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view kWithoutCavitiesTitle = "initial, cavities deleted";
 
-std::string view_title(std::string_view method) {
-  return method == kWithoutCavities ? std::string(kWithoutCavitiesTitle) : method_title(method);
+std::string view_title(const RecordSet& records, std::string_view method) {
+  return method == kWithoutCavities ? std::string(kWithoutCavitiesTitle) : method_title(records, method);
 }
 
 /// Initial first, as it says where is looked; what the methods were given last, as it differs little from it.
@@ -61,7 +61,7 @@ class ViewCollector {
       leave_out(molecule, method, fmt::format("the page's {} MB for meshes are used up", limits_.packed_bytes / 1'000'000));
       return;
     }
-    view.facts["title"] = view_title(method);
+    view.facts["title"] = view_title(records_, method);
     view.facts["positions"] = blob_number(std::move(view.positions));
     view.facts["indices"] = blob_number(std::move(view.indices));
     entry(molecule)["meshes"][method] = std::move(view.facts);
@@ -87,7 +87,7 @@ class ViewCollector {
   }
 
   void leave_out(const std::string& molecule, const std::string& method, const std::string& why) {
-    entry(molecule)["left_out"][method] = {{"title", view_title(method)}, {"why", why}};
+    entry(molecule)["left_out"][method] = {{"title", view_title(records_, method)}, {"why", why}};
   }
 
   nlohmann::ordered_json& entry(const std::string& molecule) {

@@ -34,7 +34,7 @@ void add_columns(std::vector<MoleculeColumn>& columns, const RecordSet& records,
   const std::vector<std::string> run = records.methods();
   for (const std::string& method : shown_methods(records)) {
     const std::string column_id = id + "_" + method;
-    const std::string column_title = title + ", " + method_title(method);
+    const std::string column_title = title + ", " + method_title(records, method);
     const bool has_run = std::find(run.begin(), run.end(), method) != run.end();
     if (has_run)
       columns.push_back({{column_id, column_title}, [method, cell](const MoleculeRow& row) { return cell(row.record(method)); }});
@@ -48,7 +48,7 @@ std::vector<std::string> divergence_notes(const RecordSet& records) {
   for (const std::string& method : paper_methods(records)) {
     for (const MoleculeRow& row : molecule_rows(records)) {
       const auto step = number_at(row.record(method), "/diverged_at_step");
-      if (step) notes.push_back(fmt::format("{} diverged at step {:.0f} on {}.", method_title(method), *step, row.title));
+      if (step) notes.push_back(fmt::format("{} diverged at step {:.0f} on {}.", method_title(records, method), *step, row.title));
     }
   }
   return notes;

@@ -56,6 +56,8 @@ void add_ablate(CLI::App& app, Context& context) {
                    fmt::format("names as in `smopt reproduce --help`, separated by commas [{}]",
                                fmt::join(experiments::ablation_plan(false).molecules, ",")))
       ->delimiter(',');
+  command->add_option("--data", options->data, "a folder of molecules and ready meshes that --molecules may name, as in `smopt reproduce`")
+      ->envname("SMOPT_DATA");
   command->add_option("--design", options->design, "which cases")
       ->check(CLI::IsMember({"one-at-a-time", "factorial", "thresholds", "all"}))
       ->capture_default_str();

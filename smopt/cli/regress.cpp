@@ -20,6 +20,7 @@ struct Arguments {
   std::string run;
   std::string reference;
   std::string tolerances;
+  std::vector<std::string> molecules;
   bool complete = false;
   bool accept = false;
   bool is_json = false;
@@ -37,10 +38,20 @@ void require_two_folders(const Arguments& arguments) {
     throw InvalidOption(fmt::format("{}: a run cannot be accepted as its own reference", arguments.run));
 }
 
+experiments::RecordSet records_in(const std::string& folder, const Arguments& arguments) {
+  const auto records = experiments::RecordSet::load(folder);
+  if (arguments.molecules.empty()) return records;
+  try {
+    return records.of_molecules(arguments.molecules);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("{}: {}", folder, error.what()));
+  }
+}
+
 experiments::Comparison compare_runs(const Arguments& arguments) {
   const auto tolerances = tolerances_of(arguments);
-  const auto run = experiments::RecordSet::load(arguments.run);
-  const auto reference = experiments::RecordSet::load(arguments.reference);
+  const auto run = records_in(arguments.run, arguments);
+  const auto reference = records_in(arguments.reference, arguments);
   experiments::Comparison comparison = experiments::compare(run, reference, tolerances);
   if (comparison.compared.empty() && !arguments.accept)
     throw InvalidInput(fmt::format("{}: has no case that {} has: nothing was compared", arguments.run, arguments.reference));
@@ -87,12 +98,14 @@ void add_regress(CLI::App& app, Context& context) {
       "\n"
       "Examples:\n"
       "  smopt regress results/run results/reference\n"
-      "  smopt regress results/run results/reference --accept    (these are the numbers from now on)");
+      "  smopt regress results/run results/reference --complete --molecules fas2,1a63      (none of their cases may be missing)\n"
+      "  smopt regress results/run results/reference --accept                             (these are the numbers from now on)");
   command->add_option("run", arguments->run, "the folder that `smopt reproduce` wrote")->required();
   command->add_option("reference", arguments->reference, "the folder of the run that it is held against")->required();
   command->add_flag("--complete", arguments->complete, "a case of the reference that the run lacks counts as worse");
   command->add_flag("--accept", arguments->accept,
                     "make the run's records those of the reference, better and worse, and say which changed; exit code 0");
+  command->add_option("--molecules", arguments->molecules, "only the cases of these, separated by commas")->delimiter(',');
   command->add_option("--tolerances", arguments->tolerances, "tolerances of your own, a file of the same form");
   command->add_flag("--json", arguments->is_json, "as JSON");
   command->callback([arguments, &context] { run(*arguments, context); });

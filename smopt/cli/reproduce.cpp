@@ -44,7 +44,16 @@ std::string case_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void run(const experiments::ReproduceOptions& options, Context& context) {
+void tell_left_out(const experiments::ReproduceOptions& options, const Context& context) {
+  const std::vector<std::string> names = experiments::left_out_of_folder(options);
+  if (names.empty() || context.is_quiet) return;
+  fmt::print(stderr, "note: not run of {}, as the suites or names asked for leave it out: {}\n", options.data.string(),
+             fmt::join(names, ", "));
+}
+
+void run(experiments::ReproduceOptions& options, Context& context) {
+  if (options.run.jobs == 0) options.run.jobs = context.threads;
+  tell_left_out(options, context);
   ProgressBar bar(context.is_quiet);
   experiments::RunObserver observer;
   observer.progress = bar.callback();
@@ -58,6 +67,7 @@ void run(const experiments::ReproduceOptions& options, Context& context) {
   if (context.is_quiet) return;
   fmt::print("\n{}\n{}; tables and figures are in {}\n", read_file(options.directory / "tables" / "methods.md"), counts_of(summary),
              options.directory.string());
+  if (summary.earlier_cases > 0) fmt::print("they show {} cases of earlier runs in this folder, too (records/)\n", summary.earlier_cases);
 }
 
 void add_choices(CLI::App& command, experiments::ReproduceOptions& options) {

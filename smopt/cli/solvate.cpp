@@ -59,7 +59,7 @@ Solvation solve(const Arguments& arguments, const TriangleMesh& mesh, const Mole
   throw InvalidMesh(fmt::format("{}: {}", display_name(arguments.mesh), error.what()));
 }
 
-/// Whether it needs more memory than --max-memory allows; the report says so then, with the estimate.
+/// Whether it needs more memory than --max-memory allows; the report and what is printed say so then, with the estimate.
 bool is_over_limit(const Arguments& arguments, const TriangleMesh& mesh, const Molecule& molecule) {
   const std::uint64_t limit = arguments.options.max_memory_bytes;
   const double needed = limit == 0 ? 0 : metrics::predicted_solvation_bytes(mesh, molecule, arguments.options);
@@ -68,6 +68,10 @@ bool is_over_limit(const Arguments& arguments, const TriangleMesh& mesh, const M
   const nlohmann::ordered_json report = {
       {"status", "over limit"}, {"reason", fmt::format("needs {:.0f} MB", needed_mb)}, {"predicted_memory_mb", needed_mb}};
   write_file(arguments.report, report.dump(2) + "\n");
+  if (arguments.is_json)
+    fmt::print("{}\n", report.dump(2));
+  else
+    fmt::print("over limit: needs {:.0f} MB\n", needed_mb);
   return true;
 }
 

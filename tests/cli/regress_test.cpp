@@ -47,6 +47,22 @@ TEST(Regress, ExitsWithZeroWhereNothingIsWorse) {
   EXPECT_EQ(json::parse(r.out).at("verdict"), "green");
 }
 
+TEST(Regress, CompleteAsksForTheCasesOfTheMoleculesThatAreNamed) {
+  const TemporaryFolder folder;
+  json other = record_with_pairs(0), laplacian = record_with_pairs(0);
+  other["molecule"]["name"] = "other";
+  laplacian["method"] = "laplacian";
+  const std::string run = put_run(folder, "run", record_with_pairs(0)), reference = put_run(folder, "reference", record_with_pairs(0));
+  write_file(folder.path() / "reference" / "records" / "made" / "other.json", other.dump());
+  EXPECT_EQ(run_smopt({"regress", run, reference, "--complete"}).exit_code, 1);
+  EXPECT_EQ(run_smopt({"regress", run, reference, "--complete", "--molecules", "made"}).exit_code, 0);
+  const ProgramResult unknown = run_smopt({"regress", run, reference, "--molecules", "made,other"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("no records of a molecule 'other'"));
+  write_file(folder.path() / "reference" / "records" / "made" / "laplacian.json", laplacian.dump());
+  EXPECT_EQ(run_smopt({"regress", run, reference, "--complete", "--molecules", "made"}).exit_code, 1);
+}
+
 TEST(Regress, AcceptMakesTheRunTheReference) {
   const TemporaryFolder folder;
   const std::string reference = put_run(folder, "reference", record_with_pairs(0)), run = put_run(folder, "run", record_with_pairs(3));

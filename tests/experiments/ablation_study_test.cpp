@@ -305,6 +305,8 @@ TEST(AblationRuns, ADesignThatIsNoneIsRefused) {
   AblateOptions options;
   options.molecules = {"fas3"};
   EXPECT_THAT([&] { ablate(options); }, ::testing::Throws<InvalidOption>());
+  options.data = "/nowhere/at/all";
+  EXPECT_THAT([&] { ablate(options); }, ThrowsMessage<InvalidInput>(HasSubstr("/nowhere/at/all")));
 }
 
 TEST(AblationRuns, AQuickStudyOfASmallMoleculeShowsWhatTheGuardAndTheCavitiesAreFor) {

@@ -68,6 +68,33 @@ TEST(DataFolder, AReadyMeshTakesThePlaceOfAKnownMoleculesSurface) {
   EXPECT_EQ(dataset.path, all_datasets().front().path) << "its charges";
 }
 
+TEST(DataFolder, AMoleculeOfTheUsersTakesAKnownOnesPlaceAsItIs) {
+  const TemporaryFolder folder;
+  const auto molecule = folder.file("1ubi.pqr", "");
+  const std::vector<Dataset> datasets = with_data_folder(all_datasets(), folder.path());
+  const Dataset& dataset = named(datasets, "1ubi");
+  ASSERT_TRUE(named(all_datasets(), "1ubi").is_prepared_by_pdb2pqr) << "or this test shows nothing";
+  EXPECT_EQ(dataset.path, molecule);
+  EXPECT_FALSE(dataset.is_prepared_by_pdb2pqr);
+  EXPECT_EQ(dataset.package, "") << "it comes from elsewhere";
+}
+
+TEST(DataFolder, OfSeveralFilesOfOneMoleculePqrIsTaken) {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.file("a.cif", ""));
+  static_cast<void>(folder.file("a.pdb", ""));
+  const auto molecule = folder.file("a.pqr.gz", "");
+  EXPECT_EQ(with_data_folder({}, folder.path()).front().path, molecule);
+}
+
+TEST(DataFolder, FilesOfARelativeFolderAreAbsolute) {
+  const TemporaryFolder folder;
+  const auto molecule = folder.file("a.pqr", "");
+  const auto datasets = with_data_folder({}, std::filesystem::relative(folder.path()));
+  EXPECT_TRUE(datasets.front().path.is_absolute());
+  EXPECT_TRUE(std::filesystem::equivalent(datasets.front().path, molecule));
+}
+
 TEST(DataFolder, WhatIsNotThereIsToldWithTheWayToGetIt) {
   EXPECT_THAT([] { require_files(std::vector{of_file("connexin", "entry.pqr.gz")}); },
               ThrowsMessage<InvalidInput>(AllOf(HasSubstr("connexin"), HasSubstr("entry.pqr.gz"), HasSubstr("--data"), HasSubstr("1ABC"))));

@@ -39,6 +39,15 @@ TEST(RecordSet, ReadsWhatIsThereInTheOrderOfTheListsOfMoleculesAndMethods) {
   EXPECT_EQ(records.find("bbb", "hc"), nullptr);
 }
 
+TEST(RecordSet, ACaseIsCalledAsItsRecordsSay) {
+  RecordSet records;
+  MethodCase changed = find_method_case("smopt");
+  changed.title = "SMOPT (guard=none)";
+  records.add(record_header(testing::made_dataset("a"), changed), "a");
+  EXPECT_EQ(method_title(records, "smopt"), "SMOPT (guard=none)");
+  EXPECT_EQ(method_title(records, "laplacian"), find_method_case("laplacian").title);
+}
+
 TEST(RecordSet, AFolderWithoutRecordsIsSaidToBeOne) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { RecordSet::load(folder.path()); }, ThrowsMessage<InvalidInput>(HasSubstr("no records")));
