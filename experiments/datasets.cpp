@@ -75,7 +75,8 @@ Dataset parse_dataset(const Json& json) {
 
 /// With a way to get it.
 std::string what_is_missing(const Dataset& dataset) {
-  const std::string entry = dataset.pdb.empty() ? "" : fmt::format(", made of the PDB entry {} (experiments/fetch_molecules gets it)", dataset.pdb);
+  const std::string entry =
+      dataset.pdb.empty() ? "" : fmt::format(", made of the PDB entry {} (experiments/fetch_molecules gets it)", dataset.pdb);
   return fmt::format("{}: needs the file {} in the folder that --data names{}", dataset.name, dataset.file, entry);
 }
 
@@ -128,7 +129,7 @@ std::vector<Dataset> find_datasets(std::span<const Dataset> datasets, std::span<
       for (const Dataset& dataset : datasets) known.push_back(dataset.name);
       throw InvalidOption(fmt::format("no molecule '{}'; there are {}", name, fmt::join(known, ", ")));
     }
-    found.push_back(*it);
+    if (std::ranges::find(found, name, &Dataset::name) == found.end()) found.push_back(*it);
   }
   return found;
 }

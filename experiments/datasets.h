@@ -58,7 +58,7 @@ std::vector<Dataset> parse_datasets(std::string_view json);
 /// An entry of the form of datasets.json that `parse_datasets` reads back, its files where they were found.
 nlohmann::ordered_json to_json(const Dataset& dataset);
 
-/// The datasets of these names, in this order. \throws InvalidOption that lists the names when there is no such dataset.
+/// The datasets of these names, in this order, each once. \throws InvalidOption that lists the names when there is no such dataset.
 std::vector<Dataset> find_datasets(std::span<const Dataset> datasets, std::span<const std::string> names);
 
 /// Those of a suite.

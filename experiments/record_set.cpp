@@ -67,11 +67,8 @@ void RecordSet::add(Json record, const std::string& source) {
 
 RecordSet RecordSet::of_molecules(const std::vector<std::string>& names) const {
   RecordSet some;
-  for (const std::string& name : names) {
-    const auto found = records_.find(name);
-    if (found == records_.end()) throw InvalidInput(fmt::format("no records of a molecule '{}'", name));
-    some.records_.insert(*found);
-  }
+  for (const std::string& name : names)
+    if (const auto found = records_.find(name); found != records_.end()) some.records_.insert(*found);
   return some;
 }
 

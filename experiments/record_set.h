@@ -22,10 +22,11 @@ class RecordSet {
   /// Adds a record, in place of one of the same case. \throws InvalidInput naming `source` when it is none.
   void add(Json record, const std::string& source);
 
-  /// The records of these molecules. \throws InvalidInput when there is none of one of them.
+  /// The records of these molecules, as far as there are any.
   [[nodiscard]] RecordSet of_molecules(const std::vector<std::string>& names) const;
 
   [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] bool has(std::string_view molecule) const { return records_.contains(molecule); }
 
   /// Names in the order in which tables and figures show them: molecules as in datasets.json, then by name; methods: initial, as in
   /// methods.json, then by name.

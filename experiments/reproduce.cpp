@@ -47,7 +47,8 @@ void apply_override(std::vector<MethodCase>& cases, const std::string& text) {
 
 std::vector<MethodCase> chosen_cases(const ReproduceOptions& options) {
   std::vector<MethodCase> cases;
-  for (const std::string& name : chosen_names(options)) cases.push_back(find_method_case(name));
+  for (const std::string& name : chosen_names(options))
+    if (std::ranges::find(cases, name, &MethodCase::name) == cases.end()) cases.push_back(find_method_case(name));
   for (const std::string& text : options.overrides) apply_override(cases, text);
   return cases;
 }

@@ -215,7 +215,11 @@ std::string run_planned_step(const PlannedStep& planned, const ProgressCallback&
   const Step& step = plan.step(planned.id);
   StepPlace place = step_place(plan_file.has_parent_path() ? plan_file.parent_path() : ".", planned.program);
   place.threads = planned.threads;
-  if (!step.command.empty()) return run_step(step, place, progress).status;
+  if (!step.command.empty()) {
+    const StepOutcome outcome = run_step(step, place, progress);
+    if (outcome.is_interrupted) throw Cancelled();
+    return outcome.status;
+  }
   const Json record = assemble_record(plan.recorded_by(step), plan, place.directory);
   write_record(place.directory, record);
   return record.at("status").get<std::string>();

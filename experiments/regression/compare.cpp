@@ -98,11 +98,15 @@ std::string with_reason(const std::string& text, const std::string& reason) {
   return reason.empty() ? text : fmt::format("{} ({})", text, reason);
 }
 
-/// Whether a limit decided, which says how fast the machine is.
-bool is_limited(const Tolerance& tolerance, const Json& record) {
-  if (tolerance.limited_by.empty()) return false;
-  const std::string reason = reason_beside(record, tolerance.pointer);
-  return std::ranges::any_of(tolerance.limited_by, [&](const std::string& beginning) { return reason.starts_with(beginning); });
+double seconds_beside(const Json& record, const std::string& pointer) {
+  return number_at(&record, pointer.substr(0, pointer.rfind('/')) + "/seconds").value_or(0);
+}
+
+/// Whether a limit on time may have decided by how fast the machine is: the reference came near it.
+bool is_slow_machine(const Tolerance& tolerance, const Json& reference, const Json& now) {
+  constexpr double kNear = 0.1;  // of the time that it took until the limit
+  return !tolerance.limited_by.empty() && reason_beside(now, tolerance.pointer).starts_with(tolerance.limited_by) &&
+         seconds_beside(reference, tolerance.pointer) >= kNear * seconds_beside(now, tolerance.pointer);
 }
 
 /// Compares the records of cases one by one and collects what it finds.
@@ -170,8 +174,7 @@ class Comparer {
   void compare_quantity(const Pair& pair, const Tolerance& tolerance) {
     RecordValue reference = value_of(pair.reference, tolerance), now = value_of(pair.now, tolerance);
     const Standing standing = standing_of(tolerance, reference, now);
-    const bool is_by_a_limit = standing != Standing::within && (is_limited(tolerance, pair.reference) || is_limited(tolerance, pair.now));
-    if (standing == Standing::incomparable || is_by_a_limit) {
+    if (standing == Standing::incomparable || (standing == Standing::worse && is_slow_machine(tolerance, pair.reference, pair.now))) {
       remark_not_compared(pair, tolerance, reference, now);
       return;
     }

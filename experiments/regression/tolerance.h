@@ -26,7 +26,7 @@ struct Tolerance {
   double target = 0;                       ///< for `nearer`
   std::vector<std::string> best_first;     ///< for `ranked`
   std::vector<std::string> not_asked;      ///< words that say that there is nothing to compare
-  std::vector<std::string> limited_by;     ///< beginnings of reasons that tell of the machine and not of the mesh: nothing to compare
+  std::string limited_by;                  ///< how a reason begins that may tell of the machine and not of the mesh; empty: none does
   std::string change_from;                 ///< the quantity is the relative change from the value there; empty: the value itself
   double absolute = 0;                     ///< in the quantity's unit
   double relative = 0;                     ///< of the reference's value

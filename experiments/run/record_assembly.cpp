@@ -152,9 +152,10 @@ void add_solvation(Json& record, const CaseFiles& files) {
 
 /// A user's folder means nothing elsewhere.
 void hide_folder_of_data(Json& step, const Dataset& dataset) {
-  if (!dataset.package.empty() || !step.contains("command")) return;
+  if (!step.contains("command")) return;
+  const std::filesystem::path molecule = dataset.package.empty() ? dataset.path : std::filesystem::path();
   for (Json& word : step["command"])
-    for (const std::filesystem::path& file : {dataset.path, dataset.mesh})
+    for (const std::filesystem::path& file : {molecule, dataset.mesh})
       if (!file.empty() && word == std::filesystem::absolute(file).string()) word = file.filename().string();
 }
 

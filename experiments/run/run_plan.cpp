@@ -123,6 +123,7 @@ class MoleculePlanner {
       const std::string file = fs::absolute(dataset_.mesh).string();
       generate.command = {kThisProgram, "convert", file, mesh, "--quiet"};
       generate.inputs = {file};
+      generate.hint.clear();  // no package brings it
     }
     generate_ = add(std::move(generate));
     Step prepare = step(kWithoutCavities, "improve", "", kLightMemory, kShortWeight);

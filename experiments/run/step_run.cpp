@@ -4,9 +4,12 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "experiments/machine.h"
+#include "metrics/tetgen/worker_location.h"
 #include "smopt/error.h"
 #include "smopt/io/child_process.h"
 #include "smopt/io/file.h"
@@ -88,8 +91,9 @@ StepOutcome judge(const Step& step, const ProcessOutcome& ended, const fs::path&
 
 /// Whether somebody asked it to end, such as a batch system that stops the whole run: that says nothing of the step.
 bool was_interrupted(const ProcessOutcome& ended) {
-  constexpr int kInterrupted = 130;  // this program's exit status, and a shell's
-  return ended.exit_status == kInterrupted || ended.signal == SIGTERM || ended.signal == SIGINT;
+  constexpr int kOfAShell = 128;  // and the signal, whose command was ended by it; this program says it as 130 as well
+  return std::ranges::any_of(std::array{SIGTERM, SIGINT},
+                             [&](int signal) { return ended.signal == signal || ended.exit_status == kOfAShell + signal; });
 }
 
 Json digests_of(const Step& step, const fs::path& directory) {
@@ -138,7 +142,9 @@ StepOutcome run_command(const Step& step, const StepPlace& place, const Progress
   const ProcessOutcome ended = run_process(command_line(step, place), limits, step.rule.c_str(), progress, surroundings);
   StepOutcome outcome = judge(step, ended, place.directory);
   Json stamp = stamp_of(step, outcome);
-  if (!was_interrupted(ended)) stamp["key"] = key;  // without it, it is done again
+  outcome.is_interrupted = was_interrupted(ended);
+  if (!outcome.is_interrupted) stamp["key"] = key;  // without it, it is done again
+  if (step.needs.threads == kAllThreads) stamp["threads"] = place.threads;
   stamp["sha256"] = outcome.status == kDone ? digests_of(step, place.directory) : Json::object();
   stamp["version"] = version();
   stamp["program_sha256"] = place.program_sha256;
@@ -148,9 +154,23 @@ StepOutcome run_command(const Step& step, const StepPlace& place, const Progress
   return outcome;
 }
 
+/// Whether more threads might have been done in time.
+bool ran_out_of_time_otherwise(const Step& step, const Json& stamp, const StepPlace& place) {
+  return step.needs.threads == kAllThreads && stamp.value("out_of_time", false) && stamp.value("threads", 0) != place.threads;
+}
+
 bool are_as_left(const Step& step, const Json& stamp, const fs::path& directory) {
   if (stamp.at("status") != kDone) return true;
   return are_outputs_there(step, directory) && digests_of(step, directory) == stamp.at("sha256");
+}
+
+/// Of the worker beside the program that runs this: its steps find the same.
+std::string tetgen_digest() {
+  try {
+    return sha256_of_file(metrics::find_tetgen_worker());
+  } catch (const InvalidInput&) {
+    return "";  // whoever needs it says that it is missing
+  }
 }
 
 }  // namespace
@@ -161,6 +181,7 @@ StepPlace step_place(const fs::path& directory, const fs::path& program) {
   // This very program, even when a new one is built in its place meanwhile.
   place.program = program.empty() ? fs::path(fmt::format("/proc/{}/exe", getpid())) : fs::absolute(program);
   place.program_sha256 = sha256_of_file(place.program);
+  place.tetgen_sha256 = tetgen_digest();
   return place;
 }
 
@@ -171,6 +192,7 @@ std::string step_key(const Step& step, const StepPlace& place) {
                     {"seconds", step.limits.seconds},
                     {"memory_mb", step.limits.memory_mb}};
   for (const std::string& file : step.inputs) made_from["inputs"].push_back(sha256_of_file(in_run(place.directory, file)));
+  if (step.rule == "tetrahedralize") made_from["tetgen"] = place.tetgen_sha256;
   return sha256_hex(made_from.dump());
 }
 
@@ -192,7 +214,8 @@ std::optional<StepOutcome> earlier_outcome(const Step& step, const StepPlace& pl
   try {
     const auto stamp = read_stamp(step, place.directory);
     if (!stamp || !stamp->contains("key") || stamp->at("status") == kNotInstalledStatus) return std::nullopt;
-    if (hindrance(step, place.directory) || stamp->at("key") != step_key(step, place) || !are_as_left(step, *stamp, place.directory))
+    if (hindrance(step, place.directory) || stamp->at("key") != step_key(step, place) || !are_as_left(step, *stamp, place.directory) ||
+        ran_out_of_time_otherwise(step, *stamp, place))
       return std::nullopt;
     return StepOutcome{stamp->at("status").get<std::string>(), stamp->at("reason").get<std::string>(), true};
   } catch (const InvalidInput&) {

@@ -15,6 +15,7 @@ struct StepPlace {
   std::filesystem::path directory;  ///< the run's
   std::filesystem::path program;    ///< what kThisProgram stands for
   std::string program_sha256;       ///< of that file: another program's results are not taken for this one's
+  std::string tetgen_sha256;        ///< of the worker that runs TetGen, a program of its own; empty where there is none
   int threads = 0;                  ///< that a step which could use all may use; 0: all
 };
 
@@ -26,6 +27,7 @@ struct StepOutcome {
   std::string status;  ///< "done", "failed" or "not installed"
   std::string reason;  ///< in words; empty when it is done
   bool was_done_before = false;
+  bool is_interrupted = false;  ///< somebody asked it to end, which says nothing of the step
 };
 
 /// What a step is made from: sha256 of the program, the command and the inputs' contents. \throws InvalidInput when an input is missing.

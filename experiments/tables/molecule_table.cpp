@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "experiments/datasets.h"
+#include "experiments/method_cases.h"
 #include "experiments/paper_table.h"
 
 namespace smopt::experiments {
@@ -35,6 +36,19 @@ std::vector<std::string> stand_ins(const RecordSet& records) {
     const auto role = text_at(&record, "/molecule/role");
     if (role != to_string(Role::stand_in) && role != to_string(Role::near_copy)) continue;
     sentences.push_back(fmt::format("{}: {}.", row.title, text_at(&record, "/molecule/about").value_or("another molecule")));
+  }
+  return sentences;
+}
+
+/// "hca-coarse: SMOPT (guard=none)": cases of other options than their names stand for.
+std::vector<std::string> overridden(const RecordSet& records) {
+  std::vector<std::string> sentences;
+  for (const MoleculeRow& row : molecule_rows(records)) {
+    for (const MethodCase& method_case : all_method_cases()) {
+      const auto title = text_at(row.record(method_case.name), "/method_title");
+      if (title && *title != method_case.title)
+        sentences.push_back(fmt::format("{}: {} in place of {}.", row.title, *title, method_case.title));
+    }
   }
   return sentences;
 }
@@ -82,7 +96,8 @@ Cell count_or_reason(const RecordSet::Json* record, const std::string& pointer) 
 }
 
 std::vector<std::string> common_notes(const RecordSet& records) {
-  std::vector<std::string> notes = stand_ins(records);
+  std::vector<std::string> notes = overridden(records);
+  for (std::string& note : stand_ins(records)) notes.push_back(std::move(note));
   notes.push_back(
       "\"paper\" is Liu et al., PLoS ONE 12(9): e0184206, 2017, as printed there; \"—\" where the paper has no such molecule or there is "
       "no "

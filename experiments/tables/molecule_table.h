@@ -39,7 +39,7 @@ MoleculeColumn paper_column(int number, const std::string& paper_id, std::string
 Cell count_of(const RecordSet::Json* record, const std::string& pointer);
 Cell count_or_reason(const RecordSet::Json* record, const std::string& pointer);
 
-/// Notes that hold for every table: which molecules are stand-ins, what the paper is, which dash means what.
+/// Notes that hold for every table: which cases have other options, which molecules are stand-ins, what the paper is, which dash means what.
 std::vector<std::string> common_notes(const RecordSet& records);
 
 }  // namespace smopt::experiments

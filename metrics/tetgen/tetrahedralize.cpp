@@ -1,6 +1,7 @@
 #include "metrics/tetgen/tetrahedralize.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <string.h>
 
 #include <algorithm>
@@ -166,6 +167,7 @@ class Attempt {
     worker::write_bytes(task, worker::encode(worker::Task{switches_for_worker(options_.switches), trimmed_.surface}));
     process_ = run_process({worker.string(), task.string(), answer.string()}, {options_.time_limit_seconds, options_.memory_limit_mb},
                            "tetgen", options_.progress);
+    if (process_.signal == SIGTERM || process_.signal == SIGINT) throw Cancelled();  // somebody ends all that runs: no verdict on the mesh
     read_answer(answer);
   }
 

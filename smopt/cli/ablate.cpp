@@ -21,7 +21,8 @@ std::string part_names() {
   return text;
 }
 
-void run(const experiments::AblateOptions& options, Context& context) {
+void run(experiments::AblateOptions& options, Context& context) {
+  if (options.run.jobs == 0) options.run.jobs = context.threads;
   ProgressBar bar(context.is_quiet);
   experiments::RunObserver observer;
   observer.progress = bar.callback();

@@ -39,19 +39,21 @@ void require_two_folders(const Arguments& arguments) {
 }
 
 experiments::RecordSet records_in(const std::string& folder, const Arguments& arguments) {
-  const auto records = experiments::RecordSet::load(folder);
-  if (arguments.molecules.empty()) return records;
-  try {
-    return records.of_molecules(arguments.molecules);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(fmt::format("{}: {}", folder, error.what()));
-  }
+  auto records = experiments::RecordSet::load(folder);
+  return arguments.molecules.empty() ? records : records.of_molecules(arguments.molecules);
+}
+
+void require_known_molecules(const Arguments& arguments, const experiments::RecordSet& run, const experiments::RecordSet& reference) {
+  for (const std::string& name : arguments.molecules)
+    if (!run.has(name) && !reference.has(name))
+      throw InvalidInput(fmt::format("neither {} nor {} has records of a molecule '{}'", arguments.run, arguments.reference, name));
 }
 
 experiments::Comparison compare_runs(const Arguments& arguments) {
   const auto tolerances = tolerances_of(arguments);
   const auto run = records_in(arguments.run, arguments);
   const auto reference = records_in(arguments.reference, arguments);
+  require_known_molecules(arguments, run, reference);
   experiments::Comparison comparison = experiments::compare(run, reference, tolerances);
   if (comparison.compared.empty() && !arguments.accept)
     throw InvalidInput(fmt::format("{}: has no case that {} has: nothing was compared", arguments.run, arguments.reference));

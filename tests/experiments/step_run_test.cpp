@@ -111,9 +111,9 @@ TEST_F(StepRun, IsDoneAlreadyOnlyWithTheSameCommandInputsProgramAndOutputs) {
 }
 
 TEST_F(StepRun, WhatWasAskedToEndIsDoneAgain) {
-  for (const char* line : {"kill -TERM $$", "exit 130"}) {
+  for (const char* line : {"kill -TERM $$", "exit 130", "exit 143"}) {
     const Step step = shell(line);
-    EXPECT_EQ(run(step).status, "failed") << line;
+    EXPECT_TRUE(run(step).is_interrupted) << line;
     EXPECT_FALSE(is_done_already(step)) << line;
   }
   const Step failed = shell("exit 7");
@@ -132,6 +132,30 @@ TEST_F(StepRun, OnlyAStepThatCouldUseAllThreadsIsToldHowManyThereAre) {
   EXPECT_EQ(bytes_of(folder_.path() / "out"), "--threads 3\n");
   place_.threads = 2;
   EXPECT_TRUE(is_done_already(step)) << "the result does not depend on it";
+}
+
+TEST_F(StepRun, WhetherItEndsInTimeMayDependOnTheThreads) {
+  Step step = shell("sleep 100");
+  step.needs.threads = kAllThreads;
+  step.command.emplace_back("name");
+  step.limits.seconds = 0.2;
+  place_.threads = 1;
+  run(step);
+  EXPECT_TRUE(is_done_already(step));
+  place_.threads = 2;
+  EXPECT_FALSE(is_done_already(step));
+}
+
+TEST_F(StepRun, TetgenIsAProgramOfItsOwn) {
+  Step step = shell("cat in > out");
+  const std::string key = step_key(step, place_);
+  step.rule = "tetrahedralize";
+  const std::string with_tetgen = step_key(step, place_);
+  EXPECT_NE(place_.tetgen_sha256, "");
+  place_.tetgen_sha256 = "another";
+  EXPECT_NE(step_key(step, place_), with_tetgen);
+  step.rule = "improve";
+  EXPECT_EQ(step_key(step, place_), key);
 }
 
 TEST_F(StepRun, RunsTheVeryProgramThatRunsIt) {

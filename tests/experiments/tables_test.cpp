@@ -152,6 +152,14 @@ TEST(Tables, AStandInIsCalledOneAndExplained) {
   }
 }
 
+TEST(Tables, ACaseOfOtherOptionsThanItsNameStandsForIsExplained) {
+  std::vector<Json> records = three_methods(made_dataset("fas2"));
+  for (Json& record : records)
+    if (record.at("method") == "smopt") record["method_title"] = "SMOPT (guard=none)";
+  for (const Table& table : {table1(records_of(records)), table2(records_of(records)), table3(records_of(records))})
+    EXPECT_THAT(table.notes, Contains("The fas2: SMOPT (guard=none) in place of SMOPT.")) << table.name;
+}
+
 TEST(Tables, AFailedCaseIsARowWithItsReason) {
   const RecordSet records = records_of({made_record(ache_monomer(), "initial"), failed_record(ache_monomer(), "smopt", "out of memory")});
   EXPECT_EQ(cell(table1(records), kAche, "vertices_improved"), "failed: out of memory");

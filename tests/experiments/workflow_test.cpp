@@ -43,8 +43,12 @@ TEST(Workflow, SnakemakeGivesTheRecordsOfTheProgramsOwnRunner) {
   };
   ASSERT_EQ(reproduce(own, "--resume").exit_code, 0);
   ASSERT_EQ(reproduce(planned, "--plan").exit_code, 0);
-  const ProgramResult ran = run_program(kSnakemake, {"-s", SMOPT_SNAKEFILE, "--directory", planned.string(), "--cores", "2", "--config",
-                                                     std::string("smopt=") + SMOPT_PROGRAM});
+  const auto snakemake = [&](std::vector<std::string> how) {
+    how.insert(how.end(), {"-s", SMOPT_SNAKEFILE, "--directory", planned.string(), "--config", std::string("smopt=") + SMOPT_PROGRAM});
+    return run_program(kSnakemake, how);
+  };
+  EXPECT_EQ(snakemake({"--dry-run", "--cluster", "sh", "--jobs", "2"}).exit_code, 0) << "as on a cluster, without --cores";
+  const ProgramResult ran = snakemake({"--cores", "2"});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   for (const char* molecule : {"four", "none"}) {
     for (const char* method : kMethods) {

@@ -253,6 +253,11 @@ TEST(Tetrahedralize, AWorkerThatCrashesIsAFailureWithItsSignal) {
   EXPECT_EQ(r.reason, "TetGen crashed with signal SIGSEGV");
 }
 
+TEST(Tetrahedralize, AWorkerThatIsAskedToEndIsNoVerdictOnTheMesh) {
+  const FakeWorker worker("kill -TERM $$");
+  EXPECT_THROW(run(cube()), Cancelled);
+}
+
 TEST(Tetrahedralize, AWorkerWithoutAnAnswerIsAFailure) {
   EXPECT_THAT((FakeWorker("exit 0"), run(cube()).reason), "the TetGen worker ended without an answer");
   EXPECT_THAT((FakeWorker("echo noise; echo gone wrong >&2; exit 7"), run(cube()).reason),
