@@ -70,15 +70,19 @@ class GraphRun {
     return {std::min(nodes_[node].threads, machine_.cores), nodes_[node].memory_mb ? nodes_[node].memory_mb() : 0};
   }
 
+  [[nodiscard]] Share used() const {
+    Share used;
+    for (const auto& [node, share] : shares_) {
+      used.threads += share.threads;
+      used.memory_mb += share.memory_mb;
+    }
+    return used;
+  }
+
   [[nodiscard]] bool has_room_for(const Share& share) const {
     if (shares_.empty()) return true;
-    Share used;
-    for (const auto& [node, other] : shares_) {
-      if (nodes_[node].is_alone) return false;
-      used.threads += other.threads;
-      used.memory_mb += other.memory_mb;
-    }
-    return used.threads + share.threads <= machine_.cores && used.memory_mb + share.memory_mb <= machine_.memory_mb;
+    const Share others = used();
+    return others.threads + share.threads <= machine_.cores && others.memory_mb + share.memory_mb <= machine_.memory_mb;
   }
 
   void start_what_can() {
@@ -86,10 +90,17 @@ class GraphRun {
       if (shares_.empty()) start(*alone, share_of(*alone));
       return;  // nothing else is begun before it
     }
+    if (std::ranges::any_of(shares_, [&](const auto& running) { return nodes_[running.first].is_alone; })) return;
+    start_what_fits([](const Share& share) { return share.threads; });
+    start_what_fits([](const Share&) { return 1; });  // rather than leave a core idle
+  }
+
+  /// The first that fits when it gets so many cores, and so on.
+  void start_what_fits(const std::function<int(const Share&)>& cores) {
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
       if (!is_ready(node)) continue;
       const Share share = share_of(node);
-      if (has_room_for(share)) start(node, share);
+      if (has_room_for({cores(share), share.memory_mb})) start(node, share);
     }
   }
 

@@ -23,7 +23,8 @@ struct GraphMachine {
 /// Runs every node once, each in a thread of its own, as soon as those before it have ended and there is room for it.
 ///
 /// Nodes that must be alone go first when they are ready, once what runs has ended: their predecessors are few, and the rest can then share the
-/// machine. Among the others the first that fits starts; one that asks for more than there is runs by itself.
+/// machine. Among the others the first that fits starts; one that asks for more memory than there is runs by itself. Where a core would be idle because
+/// all that is ready asks for more cores than are free, the first of these starts all the same: what runs will end before it.
 /// \param run  of a node by its index; called from many threads at once. What it throws ends the run: nothing new is started, and the first
 /// exception is thrown when all that runs has ended.
 /// \param wait  called by this thread about ten times a second, and after each end, with what runs; what it throws ends the run likewise.

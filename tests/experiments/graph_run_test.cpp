@@ -98,6 +98,15 @@ TEST(GraphRun, WhatAsksForMoreCoresThanThereAreHasThemAll) {
   EXPECT_LE(witness.most_running, 2);
 }
 
+TEST(GraphRun, NoCoreIsIdleForWhatWantsThemAll) {
+  const std::vector<GraphNode> nodes = {node({}), node({}, 1000), node({}, 1000)};
+  Witness witness;
+  run_graph(
+      nodes, {2, 100}, [&](std::size_t i) { witness.run(i, nodes); }, nothing);
+  EXPECT_EQ(witness.most_running, 2);
+  EXPECT_EQ(witness.started.back(), 2U) << "two that want all cores are not beside each other";
+}
+
 TEST(GraphRun, KeepsWithinTheMemory) {
   std::vector<GraphNode> nodes;
   for (int i = 0; i < 6; ++i) nodes.push_back(node({}, 1, 40));
