@@ -82,7 +82,9 @@ std::vector<std::string> RecordSet::molecules() const {
   std::set<std::string> names;
   for (const auto& [name, methods] : records_) names.insert(name);
   std::vector<std::string> first;
-  for (const Dataset& dataset : all_datasets()) first.push_back(dataset.name);
+  for (const bool is_of_paper : {true, false})
+    for (const Dataset& dataset : all_datasets())
+      if (dataset.paper_row.has_value() == is_of_paper) first.push_back(dataset.name);
   return ordered(std::move(names), first);
 }
 

@@ -28,7 +28,7 @@ class RecordSet {
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] bool has(std::string_view molecule) const { return records_.contains(molecule); }
 
-  /// Names in the order in which tables and figures show them: molecules as in datasets.json, then by name; methods: initial, as in
+  /// Names in the order in which tables and figures show them: the paper's molecules, the others of datasets.json, then by name; methods: initial, as in
   /// methods.json, then by name.
   [[nodiscard]] std::vector<std::string> molecules() const;
   [[nodiscard]] std::vector<std::string> methods() const;

@@ -100,8 +100,8 @@ void add_regress(CLI::App& app, Context& context) {
       "\n"
       "Examples:\n"
       "  smopt regress results/run results/reference\n"
-      "  smopt regress results/run results/reference --complete --molecules fas2,1a63      (none of their cases may be missing)\n"
-      "  smopt regress results/run results/reference --accept                             (these are the numbers from now on)");
+      "  smopt regress results/run results/quick --complete       (none of its cases may be missing)\n"
+      "  smopt regress results/run results/quick --accept         (these are the numbers from now on)");
   command->add_option("run", arguments->run, "the folder that `smopt reproduce` wrote")->required();
   command->add_option("reference", arguments->reference, "the folder of the run that it is held against")->required();
   command->add_flag("--complete", arguments->complete, "a case of the reference that the run lacks counts as worse");

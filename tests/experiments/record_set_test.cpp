@@ -27,11 +27,11 @@ void save(const TemporaryFolder& folder, const Json& record) {
 
 TEST(RecordSet, ReadsWhatIsThereInTheOrderOfTheListsOfMoleculesAndMethods) {
   const TemporaryFolder folder;
-  for (const char* molecule : {"aaa", "1a63", "ache-monomer"})
+  for (const char* molecule : {"aaa", "1a63", "connexin_2zw3", "ache-monomer"})
     for (const char* method : {"my-method", "laplacian", "initial", "hc", "smopt"})
       save(folder, testing::made_record(testing::made_dataset(molecule), method));
   const RecordSet records = RecordSet::load(folder.path());
-  EXPECT_THAT(records.molecules(), ElementsAre("ache-monomer", "1a63", "aaa"));
+  EXPECT_THAT(records.molecules(), ElementsAre("ache-monomer", "connexin_2zw3", "1a63", "aaa"));
   EXPECT_THAT(records.methods(), ElementsAre("initial", "smopt", "laplacian", "hc", "my-method"));
   EXPECT_THAT(paper_methods(records), ElementsAre("initial", "smopt", "laplacian"));
   EXPECT_NE(records.find("aaa", "hc"), nullptr);
