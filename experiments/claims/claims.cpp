@@ -94,7 +94,7 @@ std::string counts_of(std::vector<JudgedClaim> judged) {
   return fmt::format("{} claims of the paper: {}.", judged.size(), fmt::join(counts, ", "));
 }
 
-/// "1 of the paper's 6 rows (AChE monomer) and 2 other molecules".
+/// "1 of the paper's 6 rows (AChE monomer) and 2 of other molecules".
 std::string molecules_text(const RecordSet& records) {
   std::vector<std::string> of_paper;
   std::size_t others = 0;
@@ -104,8 +104,10 @@ std::string molecules_text(const RecordSet& records) {
     else
       ++others;
   }
-  return fmt::format("{} of the paper's {} rows{} and {} other molecules", of_paper.size(), kPaperRows,
-                     of_paper.empty() ? "" : fmt::format(" ({})", fmt::join(of_paper, ", ")), others);
+  std::string text = fmt::format("{} of the paper's {} rows", of_paper.size(), kPaperRows);
+  if (!of_paper.empty()) text += fmt::format(" ({})", fmt::join(of_paper, ", "));
+  if (others > 0) text += fmt::format(" and {} of other molecules", others);
+  return text;
 }
 
 constexpr const char* kIntroduction =
