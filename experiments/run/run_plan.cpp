@@ -24,8 +24,9 @@ struct MemoryUse {
 constexpr MemoryUse kLightMemory{100, 8};
 constexpr MemoryUse kImproveMemory{150, 40};  // CGAL's remeshing; smopt takes a quarter of it
 constexpr MemoryUse kMeasureMemory{200, 30};
-constexpr MemoryUse kTetgenMemory{200, 90};  // 1.3 million vertices: 5.7 GB
-constexpr MemoryUse kSolveMemory{300, 90};   // a million vertices: 3.7 GB
+constexpr MemoryUse kTetgenMemory{200, 110};   // 1.3 million vertices: 6.5 GB, this program's checks included
+constexpr MemoryUse kQualityMemory{200, 210};  // tetrahedra of bounded shape: all the 12 GB that it may have
+constexpr MemoryUse kSolveMemory{300, 110};    // 830 000 vertices that take 100 iterations: 4.4 GB
 
 /// How long steps take beside each other on one molecule, roughly: for the time left alone.
 constexpr double kShortWeight = 1, kImproveWeight = 4, kMeasureWeight = 4, kTetgenWeight = 10, kQualityWeight = 40, kSolveWeight = 40;
@@ -180,8 +181,9 @@ class MoleculePlanner {
   }
 
   std::string add_tetrahedralize(const std::string& subject, const std::string& after, const TetgenTrial& trial) {
-    Step tetrahedralize = step(subject, "tetrahedralize", "-" + trial.switches, kTetgenMemory,
-                               trial.switches == kQualitySwitches ? kQualityWeight : kTetgenWeight);
+    const bool is_quality = trial.switches == kQualitySwitches;
+    Step tetrahedralize = step(subject, "tetrahedralize", "-" + trial.switches, is_quality ? kQualityMemory : kTetgenMemory,
+                               is_quality ? kQualityWeight : kTetgenWeight);
     command(tetrahedralize,
             {"tetrahedralize", mesh_of(subject), "--switches", trial.switches, "--time-limit", fmt::format("{}", trial.time_limit_seconds),
              "--max-memory", fmt::format("{}", options_.step_memory_mb)},

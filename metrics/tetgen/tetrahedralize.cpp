@@ -195,11 +195,19 @@ class Attempt {
   /// Empty when the worker ended by itself and with an answer.
   [[nodiscard]] std::string process_fault() const {
     if (process_.out_of_time) return fmt::format("time limit of {:g} s exceeded", options_.time_limit_seconds);
-    if (process_.signal) return fmt::format("TetGen crashed with signal {}", name_of_signal(*process_.signal));
+    if (process_.signal) return fmt::format("TetGen crashed with signal {}{}", name_of_signal(*process_.signal), near_the_limit());
     if (process_.exit_status != 0)
       return fmt::format("the TetGen worker ended with status {}{}", process_.exit_status.value_or(-1), last_line());
     if (!answer_.code) return "the TetGen worker ended without an answer";
     return {};
+  }
+
+  /// ", its memory near the limit of 8192 MB", or empty: it crashes where it is short of memory.
+  [[nodiscard]] std::string near_the_limit() const {
+    constexpr double kNear = 0.9;  // what is limited is address space, which is more than what is resident
+    const auto limit = static_cast<double>(options_.memory_limit_mb);
+    if (limit == 0 || process_.peak_memory_mb < kNear * limit) return "";
+    return fmt::format(", its memory near the limit of {} MB", options_.memory_limit_mb);
   }
 
   [[nodiscard]] std::string last_line() const {

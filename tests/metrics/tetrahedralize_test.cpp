@@ -253,6 +253,12 @@ TEST(Tetrahedralize, AWorkerThatCrashesIsAFailureWithItsSignal) {
   EXPECT_EQ(r.reason, "TetGen crashed with signal SIGSEGV");
 }
 
+TEST(Tetrahedralize, ACrashNearTheMemoryLimitSaysSo) {
+  const FakeWorker worker("exec python3 -c \"import os, time; full = b'x' * (400 << 20); time.sleep(0.3); os.kill(os.getpid(), 11)\"");
+  EXPECT_EQ(tetrahedralize(cube(), {.memory_limit_mb = 450}).reason,
+            "TetGen crashed with signal SIGSEGV, its memory near the limit of 450 MB");
+}
+
 TEST(Tetrahedralize, AWorkerThatIsAskedToEndIsNoVerdictOnTheMesh) {
   const FakeWorker worker("kill -TERM $$");
   EXPECT_THROW(run(cube()), Cancelled);
