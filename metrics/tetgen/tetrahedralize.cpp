@@ -128,7 +128,8 @@ constexpr double kSuspiciousAngle = 1;
 
 /// What is known to be wrong with a surface that failed; empty when nothing is.
 std::string diagnosis(const TriangleMesh& surface) {
-  const Intersections found = find_intersections(surface, {.list_limit = 1});
+  constexpr std::size_t kMany = 10'000;  // enough for a reason: of a tangle of a million vertices, counting all would take minutes
+  const Intersections found = find_intersections(surface, {.list_limit = 1, .count_limit = kMany});
   if (!found.count) return "intersecting pairs of triangles: " + found.why_not_counted;
   if (found.pairs.empty()) {
     std::vector<std::string> ignored;
