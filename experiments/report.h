@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,8 +11,9 @@
 
 namespace smopt::experiments {
 
-/// What a report lacks.
+/// What a report is of, and what it lacks.
 struct ReportOutcome {
+  std::size_t cases = 0;                   ///< the records that it was written from
   std::optional<std::string> why_no_page;  ///< where report.html was not written; nothing when it was
   std::vector<std::string> figure_notes;   ///< a line for each figure that was left out: why, and what brings it
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "experiments/record_set.h"
 #include "smopt/error.h"
 
 namespace smopt::experiments {
@@ -81,8 +80,8 @@ ReproduceSummary reproduce(const ReproduceOptions& options, const RunObserver& o
     return {};
   }
   ReproduceSummary summary{run_cases(run, observer), {}, 0};
-  summary.earlier_cases = RecordSet::load(options.directory).size() - summary.cases.size();
   summary.report = write_report(options.directory, observer.progress);
+  summary.earlier_cases = summary.report.cases - summary.cases.size();
   return summary;
 }
 

@@ -74,9 +74,13 @@ Standing standing_of(const Tolerance& tolerance, const RecordValue& reference, c
   return Standing::incomparable;
 }
 
-/// What stands beside a status in the record: "/tetgen/p/reason" for "/tetgen/p/status".
+/// What stands beside a status in the record: "/tetgen/p/reason" for "/tetgen/p/status" and "reason".
+std::string beside(const std::string& pointer, const char* key) {
+  return fmt::format("{}/{}", pointer.substr(0, pointer.rfind('/')), key);
+}
+
 std::string reason_beside(const Json& record, const std::string& pointer) {
-  return text_at(&record, pointer.substr(0, pointer.rfind('/')) + "/reason").value_or("");
+  return text_at(&record, beside(pointer, "reason")).value_or("");
 }
 
 bool meets_condition(const Tolerance& tolerance, const Json& record) {
@@ -99,7 +103,7 @@ std::string with_reason(const std::string& text, const std::string& reason) {
 }
 
 double seconds_beside(const Json& record, const std::string& pointer) {
-  return number_at(&record, pointer.substr(0, pointer.rfind('/')) + "/seconds").value_or(0);
+  return number_at(&record, beside(pointer, "seconds")).value_or(0);
 }
 
 /// Whether a limit on time may have decided by how fast the machine is: the reference came near it.
