@@ -79,9 +79,8 @@ ReproduceSummary reproduce(const ReproduceOptions& options, const RunObserver& o
     write_plan(run);
     return {};
   }
-  ReproduceSummary summary{run_cases(run, observer), {}, 0};
+  ReproduceSummary summary{run_cases(run, observer), {}};
   summary.report = write_report(options.directory, observer.progress);
-  summary.earlier_cases = summary.report.cases - summary.cases.size();
   return summary;
 }
 

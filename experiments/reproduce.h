@@ -26,7 +26,9 @@ struct ReproduceOptions {
 
 struct ReproduceSummary : RunSummary {
   ReportOutcome report;
-  std::size_t earlier_cases = 0;  ///< of earlier runs in the folder, which the tables and figures show as well
+
+  /// Of earlier runs in the folder, which the tables and figures show as well.
+  [[nodiscard]] std::size_t earlier_cases() const { return report.cases - cases.size(); }
 };
 
 /// The molecules, by name, suite and folder, and the cases, with what is overridden. \throws InvalidOption for an unknown name; InvalidInput for a

@@ -67,7 +67,8 @@ void run(experiments::ReproduceOptions& options, Context& context) {
   if (context.is_quiet) return;
   fmt::print("\n{}\n{}; tables and figures are in {}\n", read_file(options.directory / "tables" / "methods.md"), counts_of(summary),
              options.directory.string());
-  if (summary.earlier_cases > 0) fmt::print("they show {} cases of earlier runs in this folder, too (records/)\n", summary.earlier_cases);
+  if (const std::size_t earlier = summary.earlier_cases(); earlier > 0)
+    fmt::print("they show {} cases of earlier runs in this folder, too (records/)\n", earlier);
 }
 
 void add_choices(CLI::App& command, experiments::ReproduceOptions& options) {
